@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// The programs that Threefold can ask for a picture, each behind the same few functions.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "exporter/job.h"
+
+namespace threefold {
+
+struct Adapter {
+    std::string_view name;    ///< on the command line and in results: "povray"
+    std::string_view title;   ///< for people: "POV-Ray"
+    std::string_view program; ///< looked up in PATH
+    std::string_view package; ///< Debian package that brings it
+
+    /// Pure. Throws Error(Exit::bad_data) for what the program cannot say exactly.
+    Exported (*compile)(const RenderJob &job);
+    /// The share done, 0 to 1 over all replicates, if this line of the program's output tells it. `last_share` is its
+    /// previous answer (0 at first): a line may count within one replicate only.
+    std::optional<double> (*progress)(std::string_view line, double last_share, const Exported &exported);
+    /// Arguments that make the program print its version; `parse_version` finds it in the output ("" if absent).
+    std::string_view version_argument;
+    std::string (*parse_version)(std::string_view output);
+    /// The line of a log that best explains why the program failed; empty if none does.
+    std::string (*explain_failure)(std::string_view log);
+    /// Where glass splits rays: samples for one of a renderer that follows every branch, for about the same noise.
+    int sample_factor = 1;
+};
+
+std::span<const Adapter> adapters();
+
+} // namespace threefold

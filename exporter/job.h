@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// What is asked of a renderer, whichever it is, and what it promises before it starts.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "scenes/scene.h"
+
+namespace threefold {
+
+/// `pixel_centres`: one ray through each pixel's sample position, no filtering. `box`: the mean over each whole pixel.
+enum class Sampling { pixel_centres, box };
+
+/// One of K independent repetitions of the same picture.
+struct Replicate {
+    std::uint64_t seed = 1;
+    Vec2 film_offset_px{0, 0}; ///< added to the camera's own; every renderer gets the same one
+};
+
+struct RenderJob {
+    Scene scene;
+    Sampling sampling = Sampling::box;
+    int samples_per_pixel = 16; ///< for `box`, per replicate; a renderer that samples on a grid rounds up to a square
+    std::vector<Replicate> replicates{Replicate{}};
+    double surface_tolerance_mm = 1e-3; ///< greatest distance of a tessellated glass surface from the true one
+    double cut_weight = 1e-6;           ///< a branch of the ray tree may be dropped below this weight, never above
+    int threads = 0;                    ///< 0: all cores
+};
+
+/// How far a picture can be from the exact one apart from sampling noise: stated before rendering, itemised, and in
+/// quantities that mean the same for every renderer. Claims build their tolerances from it.
+struct Accuracy {
+    double radiance_step = 0; ///< greatest error of a stored radiance through its number format
+    double surface_mm = 0;    ///< greatest distance between a rendered glass surface and the true one
+    double rounding_mm = 0;   ///< error of a position through the arithmetic, at the scale of the scene
+    double filter_px = 0;     ///< standard deviation of the sample position under Sampling::pixel_centres
+    double cut_weight = 0;    ///< branches below this weight are dropped; 0: none is dropped
+    bool cuts_whole_trees = false; ///< cut_weight bounds all that is dropped of a ray's tree, not each branch
+    bool random_branches = false;  ///< follows one branch at random where light splits: its noise is much larger
+};
+
+struct ExportedFile {
+    std::string name; ///< a plain file name, no folder
+    std::string bytes;
+};
+
+/// A job in another program's language: a pure function of the job.
+struct Exported {
+    std::vector<ExportedFile> files;
+    std::vector<std::string> arguments; ///< of the program, run inside the folder that holds `files`
+    std::vector<std::string> outputs;   ///< pictures it will write, linear and unfiltered, replicate by replicate
+    int pictures_per_replicate = 1;     ///< a replicate is the mean of this many of them
+    int supersampling = 1;              ///< pictures are this many times wider and higher: average blocks
+    double radiance_scale = 1;          ///< a stored value is radiance times this
+    Accuracy accuracy;
+};
+
+} // namespace threefold

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+#include "exporter/povray/povray.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "exporter/povray/writer.h"
+
+namespace threefold {
+namespace {
+
+using povray::number;
+
+// The greatest radiance is stored one step below full scale, so that rounding never clips it.
+constexpr double white = 65535, brightest = 65534;
+
+int supersampling(const RenderJob &job) {
+    switch (job.sampling) {
+    case Sampling::pixel_centres:
+        return 1;
+    case Sampling::box:
+        return std::max(1, static_cast<int>(std::ceil(std::sqrt(job.samples_per_pixel / 2.0))));
+    }
+    return 1;
+}
+
+/// A mean over the pixel takes two pictures: see grid_shifts_px.
+int pictures_per_replicate(const RenderJob &job) {
+    switch (job.sampling) {
+    case Sampling::pixel_centres:
+        return 1;
+    case Sampling::box:
+        return 2;
+    }
+    return 1;
+}
+
+/// POV-Ray puts the frame's number before the extension, with as many digits as the last frame has; not so for one
+/// frame.
+std::vector<std::string> output_names(std::size_t count) {
+    if (count == 1) return {"picture.png"};
+    const std::size_t digits = std::to_string(count).size();
+    std::vector<std::string> names;
+    for (std::size_t i = 1; i <= count; ++i) names.push_back(fmt::format("picture{:0{}}.png", i, digits));
+    return names;
+}
+
+/// Everything that changes the picture is said here: a povray.ini of the user's may say otherwise.
+std::vector<std::string> arguments(const RenderJob &job, int supersampling, std::size_t pictures) {
+    std::vector<std::string> all{
+        "Input_File_Name=scene.pov",
+        "Output_File_Name=picture.png",
+        fmt::format("Width={}", job.scene.camera.image_width_px() * supersampling),
+        fmt::format("Height={}", job.scene.camera.image_height_px() * supersampling),
+        "Output_to_File=on",
+        "Output_File_Type=N", // PNG; EXR would be half precision
+        "Bits_Per_Color=16",
+        "Output_Alpha=off",
+        "File_Gamma=1.0", // linear
+        "Dither=off",
+        "Antialias=off", // POV-Ray's own is no mean over the pixel: we average ourselves
+        "Jitter=off",
+        "Quality=9",
+        "Continue_Trace=off",
+        "Initial_Frame=1", // one frame a replicate
+        fmt::format("Final_Frame={}", pictures),
+        "Display=off",
+        "Pause_When_Done=off",
+    };
+    if (job.threads > 0) all.push_back(fmt::format("Work_Threads={}", job.threads));
+    return all;
+}
+
+/// POV-Ray's limit is 256, but its threads have 2 MB of stack and it crashes near 200 levels of the total reflection
+/// that it finds by refraction, which is how coated glass reflects. Such light is one ray of a few segments.
+int greatest_depth(const Scene &scene) {
+    for (const Object &object : scene.objects)
+        if (const Glass *glass = povray::glass_of(object.shape); glass && glass->coating == Coating::antireflective)
+            return 160;
+    return 256;
+}
+
+/// A path of some ten intersections, each rounded at the scale of the scene. From afar POV-Ray loses more: it takes the
+/// square of half a chord as radius^2 - distance^2 + (distance along the ray)^2.
+double rounding_mm(const Scene &scene, const povray::Space &space) {
+    constexpr double epsilon = std::numeric_limits<double>::epsilon();
+    const double extent_mm = space.extent / space.units_per_mm;
+    double most = 16 * epsilon * extent_mm;
+    for (const Object &object : scene.objects)
+        if (const double radius_mm = povray::glass_radius_mm(object.shape); radius_mm > 0)
+            most = std::max(most, 4 * epsilon * extent_mm * extent_mm / radius_mm);
+    return most;
+}
+
+std::string head(const RenderJob &job, const povray::Space &space, double radiance_scale) {
+    return fmt::format("// {}\n"
+                       "// One unit is {} mm, the origin is at {} mm; radiance is multiplied by {}.\n"
+                       "#version 3.7;\n"
+                       "global_settings {{\n"
+                       "  assumed_gamma 1.0\n"
+                       "  max_trace_level {}\n"
+                       "  adc_bailout {} // the weight below which a branch is dropped\n"
+                       "}}\n",
+                       povray::quoted(job.scene.name), number(1 / space.units_per_mm), povray::vector(space.origin_mm),
+                       number(radiance_scale), greatest_depth(job.scene), number(job.cut_weight));
+}
+
+} // namespace
+
+Exported compile_povray(const RenderJob &job) {
+    povray::refuse_what_cannot_be_said(job);
+    const double greatest = povray::greatest_radiance(job.scene);
+    povray::Writer writer{.job = job,
+                          .space = povray::choose_space(job.scene),
+                          .radiance_scale = greatest > 0 ? brightest / white / greatest : 1,
+                          .mesh_rounding_mm = 0,
+                          .text = {},
+                          .textures = {},
+                          .texture_of_file = {}};
+
+    Exported exported;
+    exported.supersampling = supersampling(job);
+    exported.radiance_scale = writer.radiance_scale;
+    writer.text = head(job, writer.space, writer.radiance_scale);
+    write_camera(writer, exported.supersampling);
+    write_lights(writer);
+    for (const Object &object : job.scene.objects) write_object(writer, object);
+
+    exported.pictures_per_replicate = pictures_per_replicate(job);
+    const std::size_t pictures = job.replicates.size() * static_cast<std::size_t>(exported.pictures_per_replicate);
+    exported.arguments = arguments(job, exported.supersampling, pictures);
+    exported.outputs = output_names(pictures);
+    exported.accuracy.radiance_step = 0.5 / white / writer.radiance_scale;
+    exported.accuracy.rounding_mm = std::max(writer.mesh_rounding_mm, rounding_mm(job.scene, writer.space));
+    exported.accuracy.cut_weight = job.cut_weight;
+    exported.files.push_back({"scene.pov", std::move(writer.text)});
+    for (ExportedFile &texture : writer.textures) exported.files.push_back(std::move(texture));
+    return exported;
+}
+
+} // namespace threefold

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// What this adapter does not say, since it could only say something near it.
+#include "exporter/povray/writer.h"
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+namespace threefold::povray {
+namespace {
+
+bool is_black(const Rgb &colour) { return colour.r <= 0 && colour.g <= 0 && colour.b <= 0; }
+
+bool is_diffuse(const Surface &surface) {
+    return std::visit(overloaded{[](const Diffuse &diffuse) { return !is_black(greatest_value(diffuse.reflectance)); },
+                                 [](const Emissive &) { return false; }, [](const CoordinateCard &) { return false; }},
+                      surface);
+}
+
+bool is_emitter(const Surface &surface) {
+    return std::visit(overloaded{[](const Diffuse &) { return false; },
+                                 [](const Emissive &emissive) { return !is_black(greatest_value(emissive.radiance)); },
+                                 [](const CoordinateCard &) { return true; }},
+                      surface);
+}
+
+struct Orb {
+    Vec3 centre_mm;
+    double radius_mm;
+    Glass glass;
+};
+
+std::optional<Orb> orb_of(const Shape &shape) {
+    return std::visit(overloaded{[](const GlassBall &ball) {
+                                     return std::optional(Orb{ball.centre_mm, ball.radius_mm, ball.glass});
+                                 },
+                                 [](const GlassShell &shell) {
+                                     return std::optional(Orb{shell.centre_mm, shell.outer_radius_mm, shell.glass});
+                                 },
+                                 [](const Quad &) { return std::optional<Orb>(); },
+                                 [](const Mesh &) { return std::optional<Orb>(); }},
+                      shape);
+}
+
+} // namespace
+
+void refuse_what_cannot_be_said(const RenderJob &job) {
+    const Scene &scene = job.scene;
+    if (job.replicates.empty()) refuse("no picture was asked for");
+
+    const Object *diffuse = nullptr, *emitter = nullptr, *glass = nullptr;
+    for (const Object &object : scene.objects) {
+        if (const Surface *surface = surface_of(object.shape)) {
+            if (!diffuse && is_diffuse(*surface)) diffuse = &object;
+            if (!emitter && is_emitter(*surface)) emitter = &object;
+        }
+        const std::optional<Orb> orb = orb_of(object.shape);
+        if (!orb) continue;
+        glass = &object;
+        // POV-Ray looks for total reflection only where it would also follow transmitted light.
+        if (orb->glass.coating == Coating::antireflective && orb->glass.interface_transmittance <= job.cut_weight &&
+            glm::distance(scene.camera.eye_mm, orb->centre_mm) <= orb->radius_mm)
+            refuse(fmt::format("total reflection inside {} whose interfaces transmit {} cannot be seen from inside it",
+                               quoted(object.name), orb->glass.interface_transmittance));
+    }
+    if (!diffuse) return;
+    if (scene.environment && !is_black(scene.environment->radiance))
+        refuse(fmt::format("the environment's light on the diffuse surface {} is not supported yet",
+                           quoted(diffuse->name)),
+               "use directional lights, or make the surface emissive");
+    if (emitter)
+        refuse(fmt::format("light from the emitter {} on the diffuse surface {} is not supported yet",
+                           quoted(emitter->name), quoted(diffuse->name)),
+               "use directional lights, or make both surfaces emissive");
+    if (glass && !scene.lights.empty() && scene.glass_shadow.rule == GlassShadow::Rule::caustic)
+        refuse("light that glass bends onto a diffuse surface cannot be computed to a stated accuracy",
+               "use the glass shadow rule none, opaque or constant");
+}
+
+} // namespace threefold::povray

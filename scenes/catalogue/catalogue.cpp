@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#include "scenes/catalogue/catalogue.h"
+
+namespace threefold {
+
+std::vector<SceneRecipe> built_in_scenes() {
+    return {
+        calibration_scene(),
+        solid_scene(),
+        hollow_scene(),
+        furnace_scene(),
+    };
+}
+
+} // namespace threefold

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// The scenes that come with Threefold. A scene is added by a file beside this one and a line in catalogue.cpp.
+#pragma once
+
+#include "scenes/parameters.h"
+
+namespace threefold {
+
+std::vector<SceneRecipe> built_in_scenes();
+
+SceneRecipe calibration_scene();
+SceneRecipe solid_scene();
+SceneRecipe hollow_scene();
+SceneRecipe furnace_scene();
+
+} // namespace threefold

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+// What an image means between its samples.
+#pragma once
+
+#include "scenes/scene.h"
+
+namespace threefold {
+
+/// Bilinear between texel centres, clamped at the edges; uv (0, 0) is the lower left corner of the image.
+Rgb sample(const Texture &texture, Vec2 uv);
+Rgb sample(const Paint &paint, Vec2 uv);
+
+} // namespace threefold

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: MIT
+#include "scenes/validate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unistd.h>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "scenes/camera.h"
+#include "scenes/error.h"
+
+namespace threefold {
+
+namespace {
+
+/// Images are double RGB; a picture exists as replicate, mean, reference and difference at the same time.
+constexpr double bytes_per_pixel = 4 * 3 * sizeof(double);
+
+[[noreturn]] void refuse(const std::string &what) { throw Error(Exit::bad_data, what); }
+
+bool finite(Vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+void require_finite(Vec3 v, std::string_view what) {
+    if (!finite(v)) refuse(fmt::format("{} must be finite, not ({}, {}, {})", what, v.x, v.y, v.z));
+}
+
+void require_positive(double value, std::string_view what) {
+    if (!(value > 0) || !std::isfinite(value)) refuse(fmt::format("{} must be a positive number, not {}", what, value));
+}
+
+void require_colour(Rgb colour, std::string_view what) {
+    require_finite(colour, what);
+    if (std::min({colour.r, colour.g, colour.b}) < 0) refuse(fmt::format("{} must not be negative", what));
+}
+
+void validate(const Glass &glass) {
+    if (!(glass.index >= 1) || !std::isfinite(glass.index))
+        refuse(fmt::format("the index of a glass in air must be at least 1, not {}", glass.index));
+    if (!(glass.interface_transmittance >= 0 && glass.interface_transmittance <= 1))
+        refuse(fmt::format("the interface transmittance must lie in [0, 1], not {}", glass.interface_transmittance));
+}
+
+void validate(const Paint &paint, std::string_view what) {
+    std::visit(overloaded{
+                   [&](const Rgb &colour) { require_colour(colour, what); },
+                   [&](const std::shared_ptr<const Texture> &texture) {
+                       if (!texture || texture->width <= 0 || texture->height <= 0 ||
+                           texture->rgb.size() !=
+                               static_cast<std::size_t>(texture->width) * static_cast<std::size_t>(texture->height) * 3)
+                           refuse(fmt::format("{}: the image is empty or of the wrong size", what));
+                   },
+               },
+               paint);
+}
+
+void validate(const Surface &surface) {
+    std::visit(overloaded{
+                   [](const Diffuse &diffuse) { validate(diffuse.reflectance, "a reflectance"); },
+                   [](const Emissive &emissive) { validate(emissive.radiance, "a radiance"); },
+                   [](const CoordinateCard &) {},
+               },
+               surface);
+}
+
+struct Sphere {
+    Vec3 centre_mm;
+    double radius_mm;
+};
+
+std::optional<Sphere> outer_sphere(const Shape &shape) {
+    using Result = std::optional<Sphere>;
+    return std::visit(overloaded{
+                          [](const GlassBall &b) { return Result({b.centre_mm, b.radius_mm}); },
+                          [](const GlassShell &s) { return Result({s.centre_mm, s.outer_radius_mm}); },
+                          [](const Quad &) { return Result(); },
+                          [](const Mesh &) { return Result(); },
+                      },
+                      shape);
+}
+
+void validate(const Shape &shape) {
+    std::visit(overloaded{
+                   [](const GlassBall &ball) {
+                       require_finite(ball.centre_mm, "the orb's centre");
+                       require_positive(ball.radius_mm, "the orb's radius (mm)");
+                       validate(ball.glass);
+                   },
+                   [](const GlassShell &shell) {
+                       require_finite(shell.centre_mm, "the orb's centre");
+                       require_positive(shell.outer_radius_mm, "the orb's radius (mm)");
+                       require_positive(shell.wall_mm, "the orb's wall (mm)");
+                       if (shell.wall_mm >= shell.outer_radius_mm)
+                           refuse(fmt::format("the wall ({} mm) must be thinner than the orb's radius ({} mm); a solid "
+                                              "orb is a ball",
+                                              shell.wall_mm, shell.outer_radius_mm));
+                       if (!(shell.inner_radius_mm() < shell.outer_radius_mm))
+                           refuse(fmt::format("a wall of {} mm vanishes beside a radius of {} mm in double precision",
+                                              shell.wall_mm, shell.outer_radius_mm));
+                       validate(shell.glass);
+                   },
+                   [](const Quad &quad) {
+                       require_finite(quad.centre_mm, "a rectangle's centre");
+                       require_finite(quad.half_u_mm, "a rectangle's half side");
+                       require_finite(quad.half_v_mm, "a rectangle's half side");
+                       const double u = glm::length(quad.half_u_mm), v = glm::length(quad.half_v_mm);
+                       require_positive(u, "a rectangle's half width (mm)");
+                       require_positive(v, "a rectangle's half height (mm)");
+                       if (std::abs(glm::dot(quad.half_u_mm, quad.half_v_mm)) > 1e-9 * u * v)
+                           refuse("a rectangle's sides must be perpendicular");
+                       validate(quad.surface);
+                   },
+                   [](const Mesh &mesh) {
+                       if (mesh.vertices_mm.empty() || mesh.triangles.empty()) refuse("a mesh is empty");
+                       for (const Vec3 &v : mesh.vertices_mm) require_finite(v, "a mesh's vertex");
+                       for (const glm::uvec3 &t : mesh.triangles)
+                           if (std::max({t.x, t.y, t.z}) >= mesh.vertices_mm.size())
+                               refuse("a mesh's triangle names a vertex that is not there");
+                       if (!mesh.uv.empty() && mesh.uv.size() != mesh.vertices_mm.size())
+                           refuse("a mesh must have no texture coordinates, or one a vertex");
+                       validate(mesh.surface);
+                   },
+               },
+               shape);
+}
+
+/// Distance from a point to the rectangle.
+double distance(const Quad &quad, Vec3 point) {
+    const Vec3 d = point - quad.centre_mm;
+    const double u = std::clamp(glm::dot(d, quad.half_u_mm) / glm::dot(quad.half_u_mm, quad.half_u_mm), -1.0, 1.0);
+    const double v = std::clamp(glm::dot(d, quad.half_v_mm) / glm::dot(quad.half_v_mm, quad.half_v_mm), -1.0, 1.0);
+    return glm::length(d - u * quad.half_u_mm - v * quad.half_v_mm);
+}
+
+/// Glass must stand free: a ray inside it meets nothing but its own surfaces. Touching is allowed.
+void require_glass_apart(const Scene &scene) {
+    constexpr double touching = 1 - 1e-9;
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        const auto orb = outer_sphere(scene.objects[i].shape);
+        if (!orb) continue;
+        if (glm::length(scene.camera.eye_mm - orb->centre_mm) <= orb->radius_mm)
+            refuse("the eye lies inside the glass orb or on it: it must stand outside");
+        for (std::size_t j = 0; j < scene.objects.size(); ++j) {
+            if (const auto other = outer_sphere(scene.objects[j].shape); other && j > i &&
+                glm::length(other->centre_mm - orb->centre_mm) < (other->radius_mm + orb->radius_mm) * touching)
+                refuse("two glass orbs overlap: they may touch, not more");
+            if (const Quad *quad = std::get_if<Quad>(&scene.objects[j].shape);
+                quad && distance(*quad, orb->centre_mm) < orb->radius_mm * touching)
+                refuse("a rectangle cuts the glass orb: it may touch it, not more");
+        }
+    }
+}
+
+void validate(const Camera &camera) {
+    require_finite(camera.eye_mm, "the eye");
+    require_finite(camera.target_mm, "the camera's target");
+    require_finite(camera.up, "the camera's up");
+    if (camera.width_px <= 0 || camera.height_px <= 0)
+        refuse(fmt::format("the picture has no size: {} x {} px", camera.width_px, camera.height_px));
+    if (camera.crop) {
+        const Crop &c = *camera.crop;
+        if (c.width_px <= 0 || c.height_px <= 0 || c.x_px < 0 || c.y_px < 0 || c.x_px > camera.width_px - c.width_px ||
+            c.y_px > camera.height_px - c.height_px)
+            refuse(fmt::format("the crop {}x{}+{}+{} does not lie inside the film of {} x {} px", c.width_px, c.height_px,
+                               c.x_px, c.y_px, camera.width_px, camera.height_px));
+    }
+    const Vec3 view = camera.target_mm - camera.eye_mm;
+    if (!(glm::length(view) > 0)) refuse("the eye and the camera's target coincide");
+    if (!(glm::length(glm::cross(glm::normalize(view), camera.up)) > 1e-9 * glm::length(camera.up)))
+        refuse("the camera's up points along its view");
+    if (camera.projection == Projection::perspective &&
+        !(camera.horizontal_fov_deg > 0 && camera.horizontal_fov_deg < 180))
+        refuse(fmt::format("the field of view must lie between 0 and 180 degrees, not {}", camera.horizontal_fov_deg));
+    if (camera.projection == Projection::orthographic)
+        require_positive(camera.orthographic_width_mm, "the orthographic width (mm)");
+
+    const double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+    const double wanted = picture_memory_bytes(camera);
+    if (wanted > memory / 2)
+        refuse(fmt::format("a picture of {} x {} px needs about {:.3g} GB, more than half of this machine's {:.3g} GB; "
+                           "make it smaller or render crops",
+                           camera.image_width_px(), camera.image_height_px(), wanted / 1e9, memory / 1e9));
+}
+
+double greatest_radiance(const Paint &paint) {
+    return std::visit(overloaded{
+                          [](const Rgb &c) { return std::max({c.r, c.g, c.b}); },
+                          [](const std::shared_ptr<const Texture> &t) {
+                              return *std::ranges::max_element(t->rgb) / 65535.0;
+                          },
+                      },
+                      paint);
+}
+
+const Surface *surface_of(const Shape &shape) {
+    using Result = const Surface *;
+    return std::visit(overloaded{
+                          [](const GlassBall &) { return Result(nullptr); },
+                          [](const GlassShell &) { return Result(nullptr); },
+                          [](const Quad &quad) { return &quad.surface; },
+                          [](const Mesh &mesh) { return &mesh.surface; },
+                      },
+                      shape);
+}
+
+const Glass *glass_of(const Shape &shape) {
+    using Result = const Glass *;
+    return std::visit(overloaded{
+                          [](const GlassBall &ball) { return &ball.glass; },
+                          [](const GlassShell &shell) { return &shell.glass; },
+                          [](const Quad &) { return Result(nullptr); },
+                          [](const Mesh &) { return Result(nullptr); },
+                      },
+                      shape);
+}
+
+} // namespace
+
+double picture_memory_bytes(const Camera &camera) {
+    return static_cast<double>(camera.image_width_px()) * camera.image_height_px() * bytes_per_pixel;
+}
+
+Needs needs(const Scene &scene) {
+    Needs n;
+    bool diffuse = false;
+    Rgb direct(0);
+    for (const Directional &light : scene.lights) direct += light.irradiance / 3.141592653589793;
+    for (const Object &object : scene.objects) {
+        if (const Glass *glass = glass_of(object.shape)) {
+            n.glass = true;
+            n.ray_tree |= glass->coating == Coating::fresnel;
+        }
+        if (const Surface *surface = surface_of(object.shape))
+            n.greatest_radiance = std::max(
+                n.greatest_radiance, std::visit(overloaded{
+                                                    [&](const Diffuse &d) {
+                                                        diffuse = true;
+                                                        return greatest_radiance(d.reflectance) *
+                                                               std::max({direct.r, direct.g, direct.b});
+                                                    },
+                                                    [](const Emissive &e) { return greatest_radiance(e.radiance); },
+                                                    [](const CoordinateCard &) { return 1.0; },
+                                                },
+                                                *surface));
+    }
+    if (scene.environment) {
+        const Rgb &e = scene.environment->radiance;
+        n.environment_on_diffuse = diffuse && e != Rgb(0);
+        n.greatest_radiance = std::max({n.greatest_radiance, e.r, e.g, e.b});
+    }
+    n.direct_light = diffuse && !scene.lights.empty();
+    n.glass_shadow = n.glass && n.direct_light && scene.glass_shadow.rule != GlassShadow::Rule::none;
+    n.caustics = n.glass_shadow && scene.glass_shadow.rule == GlassShadow::Rule::caustic;
+    return n;
+}
+
+void validate(const Scene &scene) {
+    for (const Object &object : scene.objects) validate(object.shape);
+    for (const Directional &light : scene.lights) {
+        require_finite(light.travel, "a light's direction");
+        require_positive(glm::length(light.travel), "the length of a light's direction");
+        require_colour(light.irradiance, "a light's irradiance");
+    }
+    if (scene.environment) require_colour(scene.environment->radiance, "the environment's radiance");
+    if (!(scene.glass_shadow.transmittance >= 0 && scene.glass_shadow.transmittance <= 1))
+        refuse(fmt::format("the glass shadow's transmittance must lie in [0, 1], not {}", scene.glass_shadow.transmittance));
+    validate(scene.camera);
+    require_glass_apart(scene);
+    if (!(needs(scene).greatest_radiance > 0))
+        refuse("the scene is dark: nothing in it gives light (no light, no emitter, no environment)");
+}
+
+} // namespace threefold

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Is a scene meaningful, and what does it require of a renderer?
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scenes/scene.h"
+
+namespace threefold {
+
+/// Throws one clear Error(bad_data) for a scene without meaning: a number that is not finite, an empty or overlapping
+/// body, an eye inside glass, a picture without size or too large for this machine's memory, nothing that gives light.
+void validate(const Scene &scene);
+
+/// What the picture of a scene needs; adapters enable just that, and refuse what they cannot do.
+struct Needs {
+    bool glass = false;
+    bool ray_tree = false;               ///< some glass splits a ray (Coating::fresnel)
+    bool direct_light = false;           ///< directional lights reach a diffuse surface
+    bool environment_on_diffuse = false; ///< the environment lights a diffuse surface
+    bool glass_shadow = false;           ///< glass stands between a light and a diffuse surface by the scene's rule
+    bool caustics = false;
+    double greatest_radiance = 0; ///< upper bound over the picture; glass never amplifies
+};
+
+Needs needs(const Scene &scene);
+
+/// Bytes that one picture of this camera takes while it is made and measured (an upper estimate).
+double picture_memory_bytes(const Camera &camera);
+
+} // namespace threefold

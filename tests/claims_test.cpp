@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+// Every claim with our tracer alone: it holds, and its mutant makes it fail.
+#include <gtest/gtest.h>
+
+#include "exporter/temporary_folder.h"
+#include "scenes/catalogue/catalogue.h"
+#include "verifier/check/check.h"
+#include "verifier/report/html.h"
+
+namespace threefold {
+namespace {
+
+CheckRequest request(const std::filesystem::path &folder, const std::vector<std::string> &names) {
+    CheckRequest r;
+    const auto claims = built_in_claims();
+    for (const std::string &name : names) r.claims.push_back(find_claim(claims, name));
+    r.scenes = built_in_scenes();
+    r.witnesses = find_witnesses({"tracer"});
+    r.quick = true;
+    r.folder = folder;
+    return r;
+}
+
+class EveryClaim : public testing::TestWithParam<std::string> {};
+
+TEST_P(EveryClaim, HoldsInTheTracerUnderBothPresets) {
+    const TemporaryFolder folder;
+    for (const Preset preset : {Preset::text, Preset::published}) {
+        CheckRequest r = request(folder.path(), {GetParam()});
+        r.preset = preset;
+        const CheckOutcome outcome = check(r);
+        EXPECT_EQ(outcome.result.verdict, Verdict::holds) << outcome.result.summary;
+        EXPECT_EQ(outcome.exit, Exit::holds);
+        EXPECT_FALSE(outcome.result.claims.front().rows.empty());
+        for (const Row &row : outcome.result.claims.front().rows) {
+            if (row.relation != Relation::equal) continue;
+            EXPECT_FALSE(row.budget.empty()) << row.quantity << ": a tolerance has an itemised budget";
+            EXPECT_DOUBLE_EQ(total(row.budget), row.tolerance);
+        }
+    }
+}
+
+TEST_P(EveryClaim, FailsUnderItsMutantAndTheRendererIsNamed) {
+    const TemporaryFolder folder;
+    CheckRequest r = request(folder.path(), {GetParam()});
+    r.injected["tracer"] = r.claims.front().mutant;
+    const CheckOutcome outcome = check(r);
+    EXPECT_EQ(outcome.result.verdict, Verdict::fails) << outcome.result.summary;
+    EXPECT_EQ(outcome.exit, Exit::fails);
+    EXPECT_EQ(outcome.result.claims.front().blamed, std::vector<std::string>{"tracer"});
+    EXPECT_NE(to_html(outcome.result).find("racer"), std::string::npos);
+}
+
+INSTANTIATE_TEST_SUITE_P(Claims, EveryClaim, testing::ValuesIn([] {
+                             std::vector<std::string> names;
+                             for (const Claim &c : built_in_claims()) names.push_back(c.name);
+                             return names;
+                         }()));
+
+TEST(Check, EveryFaultIsAnsweredByFails) {
+    const TemporaryFolder folder;
+    std::vector<std::string> names;
+    for (const Claim &c : built_in_claims()) names.push_back(c.name);
+    for (const FaultEntry &fault : faults()) {
+        CheckRequest r = request(folder.path(), names);
+        r.injected["tracer"] = fault.fault;
+        EXPECT_EQ(check(r).exit, Exit::fails) << fault.name;
+    }
+}
+
+TEST(Check, ASecondRunTakesThePicturesFromTheCacheAndSaysTheSame) {
+    const TemporaryFolder folder;
+    const CheckRequest r = request(folder.path(), {"rim-reads-wall"});
+    const RunResult first = check(r).result, second = check(r).result;
+    EXPECT_FALSE(first.renders.front().from_cache);
+    EXPECT_TRUE(second.renders.front().from_cache);
+    EXPECT_EQ(first.claims.front().rows.front().measured.mean, second.claims.front().rows.front().measured.mean);
+}
+
+TEST(Check, ADamagedCacheIsRenderedAnew) {
+    const TemporaryFolder folder;
+    const CheckRequest r = request(folder.path(), {"rim-reads-wall"});
+    const RunResult first = check(r).result;
+    std::filesystem::resize_file(folder.path() / first.renders.front().folder / "replicate-03.tif", 100);
+    const RunResult second = check(r).result;
+    EXPECT_FALSE(second.renders.front().from_cache);
+    EXPECT_EQ(first.claims.front().rows.front().measured.mean, second.claims.front().rows.front().measured.mean);
+}
+
+TEST(Check, AnIndexUnderTheCriticalOneMakesTheConclusionFailAndSaysWhy) {
+    const TemporaryFolder folder;
+    CheckRequest r = request(folder.path(), {"solid-vs-hollow"});
+    r.assignments = {{"glass.index", "1.15"}};
+    const CheckOutcome outcome = check(r);
+    EXPECT_EQ(outcome.exit, Exit::fails);
+    bool flip_named = false;
+    for (const std::string &note : outcome.result.claims.front().notes) flip_named |= note.find("1.2103") != std::string::npos;
+    EXPECT_TRUE(flip_named);
+    for (const Row &row : outcome.result.claims.front().rows)
+        if (row.relation == Relation::equal) {
+            EXPECT_EQ(row.verdict, Verdict::holds) << "the renderer still agrees with the closed form: " << row.quantity;
+        }
+}
+
+TEST(Check, AnUnknownParameterIsRefusedBeforeAnythingIsRendered) {
+    const TemporaryFolder folder;
+    CheckRequest r = request(folder.path(), {"rim-reads-wall"});
+    r.assignments = {{"orb.wal_mm", "2"}};
+    EXPECT_THROW(check(r), Error);
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+} // namespace
+} // namespace threefold

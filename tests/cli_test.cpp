@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: MIT
+// The program as people and scripts meet it: exit codes, one-line errors, nothing half-written.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <sys/wait.h>
+
+#include <nlohmann/json.hpp>
+
+#include "exporter/files.h"
+#include "exporter/image/image_io.h"
+#include "tests/temporary_folder.h"
+
+namespace threefold {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+namespace fs = std::filesystem;
+
+struct Answer {
+    int exit_code;
+    std::string out, err;
+};
+
+/// Runs the program through a shell, so that redirections and PATH can be part of a case.
+Answer run(const tests::TemporaryFolder &folder, const std::string &arguments, const std::string &environment = "") {
+    const fs::path out = folder / "out.txt", err = folder / "err.txt";
+    const std::string command = "cd '" + fs::path(folder / ".").string() + "' && " + environment + " '" THREEFOLD_PROGRAM "' " +
+                                arguments + " > '" + out.string() + "' 2> '" + err.string() + "' < /dev/null";
+    const int status = std::system(command.c_str());
+    Answer answer{WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(out), read_file(err)};
+    fs::remove(out);
+    fs::remove(err);
+    return answer;
+}
+
+void expect_one_clear_line(const Answer &answer, int exit_code, const std::string &saying) {
+    EXPECT_EQ(answer.exit_code, exit_code) << answer.err;
+    EXPECT_EQ(std::ranges::count(answer.err, '\n'), 1) << answer.err;
+    EXPECT_THAT(answer.err, HasSubstr(saying));
+    EXPECT_EQ(answer.out, "");
+}
+
+struct BadInput {
+    std::string arguments;
+    int exit_code;
+    std::string saying;
+};
+
+class Refuses : public testing::TestWithParam<BadInput> {};
+
+TEST_P(Refuses, BadInputInOneLineWithItsExitCodeAndWritesNothing) {
+    const tests::TemporaryFolder folder;
+    expect_one_clear_line(run(folder, GetParam().arguments), GetParam().exit_code, GetParam().saying);
+    EXPECT_TRUE(fs::is_empty(folder / ".")) << GetParam().arguments;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Cli, Refuses,
+    testing::Values(BadInput{"render holow", 64, "did you mean 'hollow'"}, BadInput{"show nothing-like-it", 64, "calibration"},
+                    BadInput{"check solid-vs-holow", 64, "did you mean 'solid-vs-hollow'"},
+                    BadInput{"render hollow --set orb.wal_mm=1", 64, "did you mean 'orb.wall_mm'"},
+                    BadInput{"check --with tracer --set orb.wal_mm=1 rim-reads-wall -o .", 64, "did you mean 'orb.wall_mm'"},
+                    BadInput{"render hollow --set orb.radius_mm=nan", 65, "finite"}, BadInput{"render hollow --set orb.radius_mm=-1", 65, "out of range"},
+                    BadInput{"render hollow --set orb.radius_mm=0", 65, "out of range"}, BadInput{"render hollow --set orb.wall_mm=68", 65, "thinner"},
+                    BadInput{"render hollow --set orb.wall_mm=100", 65, "thinner"}, BadInput{"render hollow --set glass.index=0.99", 65, "out of range"},
+                    BadInput{"render hollow --set eye.distance_mm=60", 65, "eye"}, BadInput{"render hollow --set eye.distance_mm=67.5", 65, "eye"},
+                    BadInput{"render hollow --set card.distance_mm=60", 65, "cuts"}, BadInput{"render hollow --size 0x0", 65, "out of range"},
+                    BadInput{"render hollow --size 100000x100000", 65, "GB"}, BadInput{"render hollow --size 12", 64, "WIDTHxHEIGHT"},
+                    BadInput{"render hollow --set nonsense", 64, "name=value"}, BadInput{"render hollow --preset old", 64, "published"},
+                    BadInput{"render hollow --with mitsuba", 64, "valid: tracer, povray, cycles"}, BadInput{"render hollow --spp 0", 65, "--spp"},
+                    BadInput{"render hollow -o a.jpg", 64, ".exr"}, BadInput{"render hollow --precision half", 64, "double"},
+                    BadInput{"check --with mitsuba", 64, "renderer"}, BadInput{"check --inject povray", 64, "RENDERER:FAULT"},
+                    BadInput{"check --inject povray:index+2%", 64, "did you mean 'index+1%'"}, BadInput{"export hollow --to pov -o x", 64, "povray"},
+                    BadInput{"compare a.exr b.exr", 74, "a.exr"}, BadInput{"frobnicate", 64, "frobnicate"}, BadInput{"", 64, "subcommand"},
+                    BadInput{"optics --index 0.5", 65, "index"}, BadInput{"optics --impact-mm nan", 65, "impact"},
+                    BadInput{"optics --rows missing.json", 74, "missing.json"}));
+
+TEST(Cli, HelpTeachesAndSucceeds) {
+    const tests::TemporaryFolder folder;
+    const Answer help = run(folder, "--help");
+    EXPECT_EQ(help.exit_code, 0);
+    EXPECT_THAT(help.out, HasSubstr("Start here"));
+    EXPECT_THAT(help.out, HasSubstr("Exit codes"));
+    for (const char *command : {"list", "show", "doctor", "export", "render", "check", "compare", "optics"}) {
+        EXPECT_THAT(help.out, HasSubstr(command));
+        EXPECT_EQ(run(folder, std::string(command) + " --help").exit_code, 0);
+    }
+}
+
+TEST(Cli, ListAndShowNameEverything) {
+    const tests::TemporaryFolder folder;
+    const auto list = nlohmann::json::parse(run(folder, "list --json").out);
+    EXPECT_EQ(list.at("scenes").size(), 4u);
+    const Answer show = run(folder, "show hollow");
+    EXPECT_THAT(show.out, HasSubstr("orb.wall_mm"));
+    EXPECT_THAT(show.out, HasSubstr("1.36"));
+    const auto json = nlohmann::json::parse(run(folder, "show hollow --preset published --json").out);
+    EXPECT_EQ(json.at("parameters").at("eye.distance_mm").at("value"), 1200);
+    EXPECT_EQ(json.at("scene").at("objects").size(), 2u);
+}
+
+TEST(Cli, TheTracerGivesAFirstPictureWithNoOtherProgramInPath) {
+    const tests::TemporaryFolder folder;
+    const Answer answer = run(folder, "render hollow --size 64x64", "PATH=/nowhere");
+    EXPECT_EQ(answer.exit_code, 0) << answer.err;
+    EXPECT_EQ(answer.out, "hollow.exr\nhollow.png\n");
+    const Image image = read_image(folder / "hollow.exr");
+    EXPECT_EQ(image.width, 64);
+    EXPECT_THAT(answer.err, HasSubstr("dropped"));
+}
+
+TEST(Cli, ARendererThatWasDemandedAndIsMissingIsExit69) {
+    const tests::TemporaryFolder folder;
+    expect_one_clear_line(run(folder, "render hollow --with povray", "PATH=/nowhere"), 69, "apt-get install povray");
+    EXPECT_EQ(run(folder, "check --with cycles -o report", "PATH=/nowhere").exit_code, 69);
+}
+
+TEST(Cli, WithoutTheOthersACheckIsUndecidedSaysWhichAreMissingAndTheTracerStillAnswers) {
+    const tests::TemporaryFolder folder;
+    const Answer answer = run(folder, "check --quick rim-reads-wall -o report --json -", "PATH=/nowhere");
+    EXPECT_EQ(answer.exit_code, 2) << answer.err;
+    const auto json = nlohmann::json::parse(answer.out);
+    EXPECT_EQ(json.at("verdict"), "undecided");
+    EXPECT_THAT(json.at("summary").get<std::string>(), HasSubstr("POV-Ray is not installed"));
+    EXPECT_THAT(json.at("summary").get<std::string>(), HasSubstr("Cycles is not installed"));
+    bool tracer_answers = false;
+    for (const auto &claim : json.at("claims"))
+        for (const auto &row : claim.at("rows")) tracer_answers |= row.at("witness") == "tracer" && row.at("verdict") == "holds";
+    EXPECT_TRUE(tracer_answers);
+}
+
+TEST(Cli, CheckWritesReportJsonAndJunit) {
+    const tests::TemporaryFolder folder;
+    const Answer answer = run(folder, "check --quick --with tracer -o report --junit j.xml --json r.json");
+    EXPECT_EQ(answer.exit_code, 0) << answer.err << answer.out;
+    EXPECT_THAT(answer.out, HasSubstr("report: "));
+    EXPECT_THAT(answer.out, Not(HasSubstr("\033")));
+    for (const char *file : {"report/report.html", "report/result.json", "j.xml", "r.json"}) EXPECT_TRUE(fs::exists(folder / file)) << file;
+}
+
+TEST(Cli, AFaultIsAnsweredByFailsAndExit1) {
+    const tests::TemporaryFolder folder;
+    const Answer answer = run(folder, "check --quick --with tracer rim-reads-wall --inject tracer:wall-doubled -o report");
+    EXPECT_EQ(answer.exit_code, 1);
+    EXPECT_THAT(answer.out, HasSubstr("racer"));
+}
+
+TEST(Cli, ADryRunRendersNothing) {
+    const tests::TemporaryFolder folder;
+    const Answer answer = run(folder, "check --dry-run");
+    EXPECT_EQ(answer.exit_code, 0);
+    EXPECT_THAT(answer.out, HasSubstr("hollow-map"));
+    EXPECT_TRUE(fs::is_empty(folder / "."));
+}
+
+TEST(Cli, CompareJudgesPicturesAndRefusesDamagedOnes) {
+    const tests::TemporaryFolder folder;
+    run(folder, "render solid --size 48x48 --spp 64 -o a.exr");
+    run(folder, "render solid --size 48x48 --spp 64 --seed 2 -o b.exr");
+    run(folder, "render solid --size 48x48 --spp 64 --set glass.index=1.7 -o c.exr");
+    run(folder, "render solid --size 40x48 -o small.exr");
+    EXPECT_EQ(run(folder, "compare a.exr b.exr --tolerance 0.03").exit_code, 0);
+    const Answer fails = run(folder, "compare a.exr b.exr c.exr -o maps --json -");
+    EXPECT_EQ(fails.exit_code, 1);
+    EXPECT_EQ(nlohmann::json::parse(fails.out).at("pairs").size(), 3u);
+    EXPECT_TRUE(fs::exists(folder / "maps/difference-1-3.png"));
+    expect_one_clear_line(run(folder, "compare a.exr small.exr"), 65, "40 x 48");
+    fs::resize_file(folder / "b.exr", fs::file_size(folder / "b.exr") / 2);
+    expect_one_clear_line(run(folder, "compare a.exr b.exr"), 65, "b.exr");
+    std::ofstream(folder / "text.exr") << "no picture";
+    EXPECT_EQ(run(folder, "compare a.exr text.exr").exit_code, 65);
+}
+
+TEST(Cli, AFolderThatCannotBeWrittenIsExit74) {
+    const tests::TemporaryFolder folder;
+    std::ofstream(folder / "file") << "x";
+    expect_one_clear_line(run(folder, "render hollow --size 16x16 -q -o file/a.exr"), 74, "file");
+    expect_one_clear_line(run(folder, "check --quick --with tracer -q -o file/report"), 74, "file");
+    expect_one_clear_line(run(folder, "export hollow --to povray -o file/x"), 74, "file");
+}
+
+TEST(Cli, AFullDiskIsExit74AndLeavesNothingUnderAFinalName) {
+    const tests::TemporaryFolder folder;
+    // A limit on file size stands for the full disk: the write is cut short in the same way.
+    const Answer answer = run(folder, "render hollow --size 256x256 --spp 1 -q -o big.exr", "ulimit -f 8;");
+    EXPECT_EQ(answer.exit_code, 74) << answer.err;
+    EXPECT_FALSE(fs::exists(folder / "big.exr"));
+    EXPECT_TRUE(fs::is_empty(folder / "."));
+    EXPECT_EQ(run(folder, "list > /dev/full; exit $?").exit_code, 74);
+}
+
+/// A stand-in for a renderer that is broken in one way; it takes part in no claim of agreement.
+void put_broken_povray(const tests::TemporaryFolder &folder, const std::string &behaviour) {
+    fs::create_directory(folder / "bin");
+    std::ofstream(folder / "bin/povray") << "#!/bin/sh\ncase \"$*\" in *ersion*) echo 'POV-Ray 3.7.0.10'; exit 0;; esac\n" << behaviour << "\n";
+    fs::permissions(folder / "bin/povray", fs::perms::owner_all);
+}
+
+TEST(Cli, ARendererThatCrashesOrWritesNothingHasNoVoteAndTheOthersGoOn) {
+    for (const char *behaviour : {"kill -SEGV $$", "exit 1", "exit 0", "head -c 40 /dev/zero > picture1.png"}) {
+        const tests::TemporaryFolder folder;
+        put_broken_povray(folder, behaviour);
+        const Answer answer = run(folder, "check --quick --with tracer,povray rim-reads-wall -o report --json -", "PATH=$PWD/bin:/bin:/usr/bin");
+        EXPECT_EQ(answer.exit_code, 2) << behaviour << answer.err;
+        const auto json = nlohmann::json::parse(answer.out);
+        EXPECT_THAT(json.at("summary").get<std::string>(), HasSubstr("POV-Ray gave no picture")) << behaviour;
+        EXPECT_TRUE(fs::exists(folder / "report/report.html"));
+        EXPECT_EQ(run(folder, "render hollow --size 16x16 --with povray -q -o a.exr", "PATH=$PWD/bin:/bin:/usr/bin").exit_code, 74);
+        EXPECT_FALSE(fs::exists(folder / "a.exr"));
+    }
+}
+
+TEST(Cli, ARendererThatHangsIsStoppedAndExit124) {
+    const tests::TemporaryFolder folder;
+    put_broken_povray(folder, "sleep 1000");
+    const Answer answer = run(folder, "check --quick --timeout 1 --with tracer,povray rim-reads-wall -o report", "PATH=$PWD/bin:/bin:/usr/bin");
+    EXPECT_EQ(answer.exit_code, 124) << answer.err;
+    EXPECT_THAT(answer.out, HasSubstr("out of time"));
+    EXPECT_EQ(run(folder, "render hollow --size 16x16 --with povray --timeout 1 -q", "PATH=$PWD/bin:/bin:/usr/bin").exit_code, 124);
+}
+
+TEST(Cli, ExportsAreCompleteFoldersAndPrintTheirCommand) {
+    const tests::TemporaryFolder folder;
+    const Answer povray = run(folder, "export hollow --to povray -o p");
+    EXPECT_EQ(povray.exit_code, 0);
+    EXPECT_THAT(povray.out, HasSubstr("povray"));
+    EXPECT_TRUE(fs::exists(folder / "p/scene.pov"));
+    EXPECT_EQ(run(folder, "export hollow --to blender -o b").exit_code, 0);
+    EXPECT_TRUE(fs::exists(folder / "b/scene.py"));
+}
+
+} // namespace
+} // namespace threefold

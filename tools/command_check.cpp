@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+// check: claims to verdicts, with a report to look at.
+#include <cmath>
+#include <cstdlib>
+#include <unistd.h>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "exporter/files.h"
+#include "tools/commands.h"
+#include "tools/progress.h"
+#include "verifier/check/check.h"
+#include "verifier/report/html.h"
+#include "verifier/report/json.h"
+#include "verifier/report/junit.h"
+#include "verifier/report/terminal.h"
+
+namespace threefold {
+
+void write_result(const std::string &where, const std::string &text) {
+    if (where == "-")
+        fmt::print("{}\n", text);
+    else
+        write_file_atomically(where, text + "\n");
+}
+
+namespace {
+
+std::map<std::string, Fault> parse_injections(const std::vector<std::string> &injections) {
+    std::map<std::string, Fault> all;
+    for (const std::string &text : injections) {
+        const std::size_t colon = text.find(':');
+        if (colon == std::string::npos) throw Error(Exit::usage, fmt::format("--inject takes RENDERER:FAULT, not '{}'", text));
+        const std::string name = text.substr(0, colon);
+        if (std::ranges::count(witness_names(), name) == 0)
+            throw Error(Exit::usage, unknown_name("renderer", name, witness_names()));
+        all[name] = parse_fault(text.substr(colon + 1));
+    }
+    return all;
+}
+
+std::vector<Claim> asked_claims(const Shop &shop, const std::vector<std::string> &names) {
+    if (names.empty()) return shop.claims;
+    std::vector<Claim> asked;
+    for (const std::string &name : names) asked.push_back(find_claim(shop.claims, name));
+    // A vote needs a calibration, asked for or not.
+    if (std::ranges::count(asked, "calibration", &Claim::name) == 0)
+        asked.insert(asked.begin(), find_claim(shop.claims, "calibration"));
+    return asked;
+}
+
+void print_plan(const CheckRequest &request) {
+    const ClaimContext context{request.scenes, request.preset, request.assignments, request.quick};
+    for (const Claim &claim : request.claims) {
+        fmt::print("{}\n", claim.name);
+        for (const Experiment &e : claim.experiments(context))
+            fmt::print("  {:<16} scene {:<12} {} x {} px, {} replicates\n", e.name, e.record.scene, e.scene.camera.image_width_px(),
+                       e.scene.camera.image_height_px(), e.replicates);
+    }
+}
+
+} // namespace
+
+Exit command_check(const Shop &shop, const CheckCommand &command) {
+    CheckRequest request;
+    request.claims = asked_claims(shop, command.claims);
+    request.scenes = shop.scenes;
+    request.preset = parse_preset(command.preset);
+    for (const std::string &text : command.assignments) request.assignments.push_back(parse_assignment(text));
+    request.quick = command.quick;
+    request.seed = command.seed;
+    request.threads = shop.threads;
+    request.tracer = tracer_settings(command.precision, "tree");
+    request.time_limit = std::chrono::milliseconds(static_cast<long>(1000 * command.time_limit_s));
+    request.folder = command.folder;
+    request.injected = parse_injections(command.injections);
+    if (command.dry_run) {
+        print_plan(request);
+        return Exit::holds;
+    }
+    make_folder(command.folder);
+    request.witnesses = find_witnesses(command.with.empty() ? witness_names() : command.with);
+    if (!command.with.empty())
+        for (const Witness &w : request.witnesses)
+            if (!w.present())
+                throw Error(Exit::renderer_missing, fmt::format("{} was asked for and is not installed", w.title),
+                            fmt::format("apt-get install {}", w.package));
+
+    std::vector<std::string> names;
+    for (const Witness &w : request.witnesses)
+        if (w.present()) names.push_back(w.name);
+    Progress progress(names, shop.verbosity < 0);
+    request.on_progress = [&progress](const std::string &witness, double share, const std::string &now) {
+        progress.update(witness, share, now);
+    };
+    CheckOutcome outcome = check(request);
+    progress.finish();
+
+    RunResult &result = outcome.result;
+    result.threefold_version = THREEFOLD_VERSION;
+    result.command = shop.command_line;
+    result.versions = library_versions();
+    const std::filesystem::path report = command.folder / "report.html";
+    write_file_atomically(command.folder / "result.json", to_json(result).dump(1) + "\n");
+    write_file_atomically(report, to_html(result));
+    if (command.json) write_result(*command.json, to_json(result).dump(1));
+    if (command.junit) write_result(*command.junit, to_junit(result));
+    if (!command.json || *command.json != "-") {
+        const char *no_colour = std::getenv("NO_COLOR");
+        const bool colour = isatty(STDOUT_FILENO) && !(no_colour && *no_colour);
+        fmt::print("{}", to_text(result, colour, shop.verbosity));
+        fmt::print("\nreport: {}\n", std::filesystem::absolute(report).lexically_normal().string());
+    }
+    return outcome.exit;
+}
+
+} // namespace threefold

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+// export and render: a scene as another program's input, and as a picture.
+#include <chrono>
+
+#include <fmt/format.h>
+
+#include "exporter/files.h"
+#include "exporter/image/image_io.h"
+#include "exporter/scene_json.h"
+#include "exporter/temporary_folder.h"
+#include "tools/commands.h"
+#include "tools/progress.h"
+#include "verifier/witness/witness.h"
+
+namespace threefold {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const Adapter &adapter_for(const std::string &to) {
+    // People say which program they want to open; the adapter is named by the renderer inside.
+    const std::string name = to == "blender" ? "cycles" : to;
+    for (const Adapter &adapter : adapters())
+        if (adapter.name == name) return adapter;
+    throw Error(Exit::usage, unknown_name("export format", to, {"povray", "blender"}));
+}
+
+} // namespace
+
+TracerSettings tracer_settings(const std::string &precision, const std::string &transport) {
+    TracerSettings settings;
+    if (precision == "float")
+        settings.precision = Precision::single_precision;
+    else if (precision != "double")
+        throw Error(Exit::usage, unknown_name("precision", precision, {"float", "double"}));
+    if (transport == "roulette")
+        settings.transport = Transport::roulette;
+    else if (transport != "tree")
+        throw Error(Exit::usage, unknown_name("transport", transport, {"tree", "roulette"}));
+    return settings;
+}
+
+Exit command_export(const Shop &shop, const ExportRequest &request) {
+    const Adapter &adapter = adapter_for(request.to);
+    RenderJob job;
+    job.scene = scene_of(shop, request.scene);
+    job.samples_per_pixel = request.samples_per_pixel;
+    job.replicates = {{request.seed, {}}};
+    job.threads = shop.threads;
+    const Exported exported = adapter.compile(job);
+    write_exported(exported, request.folder);
+    std::string command = fmt::format("cd {} && {}", request.folder.string(), adapter.program);
+    for (const std::string &argument : exported.arguments) command += " " + argument;
+    if (shop.verbosity >= 0)
+        fmt::print(stderr, "wrote {} file{} to {}; to render:\n", exported.files.size(), exported.files.size() == 1 ? "" : "s",
+                   request.folder.string());
+    fmt::print("{}\n", command);
+    return Exit::holds;
+}
+
+Exit command_render(const Shop &shop, const RenderRequest &request) {
+    const Scene scene = scene_of(shop, request.scene);
+    const fs::path output = request.output.value_or(request.scene.name + ".exr");
+    const std::string extension = output.extension().string();
+    if (extension != ".exr" && extension != ".tif" && extension != ".png")
+        throw Error(Exit::usage, fmt::format("the picture's name must end in .exr, .tif (64-bit) or .png, not '{}'", output.string()));
+    if (request.samples_per_pixel < 1) throw Error(Exit::bad_data, "--spp must be at least 1");
+    if (output.has_parent_path()) make_folder(output.parent_path());
+
+    const Witness witness = find_witnesses({request.with}).front();
+    RenderJob job;
+    job.scene = scene;
+    job.sampling = request.pixel_centres ? Sampling::pixel_centres : Sampling::box;
+    job.samples_per_pixel = request.samples_per_pixel;
+    job.replicates = {{request.seed, {}}};
+    job.cut_weight = request.cut_weight;
+    job.threads = shop.threads;
+
+    const TemporaryFolder temporary;
+    Progress progress({witness.name}, shop.verbosity < 0);
+    const Rendered r =
+        render(witness, job,
+               {request.keep.value_or(temporary.path()), request.scene.name, tracer_settings(request.precision, request.transport),
+                std::chrono::milliseconds(static_cast<long>(1000 * request.time_limit_s)),
+                [&](double share) { progress.update(witness.name, share, request.scene.name); }});
+    progress.finish();
+
+    std::map<std::string, std::string> metadata{{"threefold:scene", request.scene.name},
+                                                {"threefold:scene_hash", r.record.scene_hash},
+                                                {"threefold:renderer", witness.name},
+                                                {"threefold:command", shop.command_line}};
+    if (witness.installed) metadata["threefold:renderer_version"] = witness.installed->version;
+    if (r.record.missing_weight_mean) {
+        metadata["threefold:missing_weight_mean"] = fmt::format("{:.3e}", *r.record.missing_weight_mean);
+        metadata["threefold:missing_weight_greatest"] = fmt::format("{:.3e}", *r.record.missing_weight_greatest);
+    }
+    write_image(output, r.images.front(), metadata);
+    fs::path preview = output;
+    preview.replace_extension(".png");
+    if (preview != output) write_image(preview, r.images.front());
+
+    if (shop.verbosity >= 0) {
+        fmt::print(stderr, "{} in {:.2f} s", witness.title, r.record.seconds);
+        if (r.record.missing_weight_mean)
+            fmt::print(stderr, "; dropped with the ends of ray trees: {:.1e} of the light on average, {:.1e} in the worst pixel",
+                       *r.record.missing_weight_mean, *r.record.missing_weight_greatest);
+        fmt::print(stderr, "\n");
+    }
+    fmt::print("{}\n", output.string());
+    if (preview != output) fmt::print("{}\n", preview.string());
+    return Exit::holds;
+}
+
+} // namespace threefold

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// list and show: what there is to render and to check.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "exporter/scene_json.h"
+#include "scenes/validate.h"
+#include "tools/commands.h"
+
+namespace threefold {
+
+using Json = nlohmann::ordered_json;
+
+std::vector<Assignment> parse_size(const std::string &size) {
+    if (size.empty()) return {};
+    const std::size_t cross = size.find('x');
+    if (cross == std::string::npos || cross == 0 || cross + 1 == size.size())
+        throw Error(Exit::usage, fmt::format("--size takes WIDTHxHEIGHT in pixels, not '{}'", size));
+    return {{"image.width_px", size.substr(0, cross)}, {"image.height_px", size.substr(cross + 1)}};
+}
+
+Parameters parameters_of(const SceneRecipe &recipe, const SceneRequest &request) {
+    Parameters values(recipe.parameters, parse_preset(request.preset));
+    for (const Assignment &a : parse_size(request.size)) values.set(a.name, a.value);
+    for (const std::string &text : request.assignments) {
+        const Assignment a = parse_assignment(text);
+        values.set(a.name, a.value);
+    }
+    return values;
+}
+
+Scene scene_of(const Shop &shop, const SceneRequest &request) {
+    const SceneRecipe &recipe = find_scene(shop.scenes, request.name);
+    Scene scene = recipe.make(parameters_of(recipe, request));
+    validate(scene);
+    return scene;
+}
+
+Exit command_list(const Shop &shop, bool json) {
+    if (json) {
+        Json all{{"scenes", Json::array()}, {"claims", Json::array()}, {"faults", Json::array()}};
+        for (const SceneRecipe &s : shop.scenes) all["scenes"].push_back({{"name", s.name}, {"summary", s.summary}});
+        for (const Claim &c : shop.claims)
+            all["claims"].push_back({{"name", c.name}, {"statement", c.statement}, {"mutant", to_string(c.mutant)}});
+        for (const FaultEntry &f : faults()) all["faults"].push_back({{"name", f.name}, {"description", f.description}});
+        write_result("-", all.dump(2));
+        return Exit::holds;
+    }
+    fmt::print("Scenes (threefold show SCENE, threefold render SCENE):\n");
+    for (const SceneRecipe &s : shop.scenes) fmt::print("  {:<16} {}\n", s.name, s.summary);
+    fmt::print("\nClaims (threefold check [CLAIM...]):\n");
+    for (const Claim &c : shop.claims) fmt::print("  {:<16} {}\n", c.name, c.statement);
+    fmt::print("\nFaults (threefold check --inject RENDERER:FAULT):\n");
+    for (const FaultEntry &f : faults()) fmt::print("  {:<16} {}\n", f.name, f.description);
+    return Exit::holds;
+}
+
+namespace {
+
+std::string range_of(const ParameterSpec &s) {
+    return s.choices.empty() ? fmt::format("[{:g}, {:g}]", s.least, s.greatest) : fmt::format("{}", fmt::join(s.choices, "|"));
+}
+
+std::string unit_of(const std::string &name) {
+    for (const char *unit : {"mm", "px", "deg", "rad"})
+        if (name.ends_with(fmt::format("_{}", unit))) return unit;
+    return "";
+}
+
+} // namespace
+
+Exit command_show(const Shop &shop, const SceneRequest &request, bool json) {
+    const SceneRecipe &recipe = find_scene(shop.scenes, request.name);
+    const Parameters values = parameters_of(recipe, request);
+    const Scene scene = scene_of(shop, request);
+    const Parameters text(recipe.parameters, Preset::text), published(recipe.parameters, Preset::published);
+    if (json) {
+        Json all{{"name", recipe.name}, {"summary", recipe.summary}, {"preset", request.preset}, {"parameters", Json::object()}};
+        for (const ParameterSpec &s : recipe.parameters) {
+            Json p{{"description", s.description}, {"unit", unit_of(s.name)}};
+            if (s.choices.empty())
+                p.update({{"value", values.number(s.name)}, {"text", s.text}, {"published", s.published}, {"least", s.least}, {"greatest", s.greatest}});
+            else
+                p.update({{"value", values.word(s.name)}, {"choices", s.choices}});
+            all["parameters"][s.name] = std::move(p);
+        }
+        all["scene"] = to_json(scene);
+        all["scene_hash"] = scene_hash(scene);
+        write_result("-", all.dump(2));
+        return Exit::holds;
+    }
+    fmt::print("{}: {}\n\n", recipe.name, recipe.summary);
+    fmt::print("  {:<28} {:>12} {:>12} {:>12}  {:<4} {:<24} {}\n", "parameter", "value", "text", "published", "unit", "range", "meaning");
+    for (const ParameterSpec &s : recipe.parameters)
+        fmt::print("  {:<28} {:>12} {:>12} {:>12}  {:<4} {:<24} {}\n", s.name, values.text(s.name), text.text(s.name),
+                   published.text(s.name), unit_of(s.name), range_of(s), s.description);
+    const Needs n = needs(scene);
+    std::vector<std::string> wants;
+    if (n.ray_tree) wants.emplace_back("a tree of reflected and refracted rays");
+    if (n.glass && !n.ray_tree) wants.emplace_back("refraction without reflection");
+    if (n.direct_light) wants.emplace_back("direct light on diffuse surfaces");
+    if (n.glass_shadow) wants.emplace_back("light through glass");
+    if (n.caustics) wants.emplace_back("caustics");
+    fmt::print("\nneeds: {}\n", wants.empty() ? "nothing but emitters" : fmt::format("{}", fmt::join(wants, ", ")));
+    fmt::print("scene hash: {}\n", scene_hash(scene));
+    return Exit::holds;
+}
+
+} // namespace threefold

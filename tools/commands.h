@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// One function a command. Results go to stdout, log and progress to stderr; each returns an exit code or throws Error.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenes/error.h"
+#include "scenes/parameters.h"
+#include "verifier/claims/claim.h"
+#include "verifier/tracer/tracer.h"
+
+namespace threefold {
+
+/// What every command may use.
+struct Shop {
+    const std::vector<SceneRecipe> &scenes;
+    const std::vector<Claim> &claims;
+    std::string command_line; ///< as typed, quoted for a shell
+    int verbosity = 0;        ///< -1 quiet, 0, 1 verbose
+    int threads = 0;
+};
+
+/// A scene as asked for on the command line.
+struct SceneRequest {
+    std::string name;
+    std::string preset = "text";
+    std::vector<std::string> assignments;
+    std::string size; ///< "WxH", or empty
+};
+
+Parameters parameters_of(const SceneRecipe &recipe, const SceneRequest &request);
+/// Built and validated.
+Scene scene_of(const Shop &shop, const SceneRequest &request);
+/// "WxH" as two assignments.
+std::vector<Assignment> parse_size(const std::string &size);
+
+Exit command_list(const Shop &shop, bool json);
+Exit command_show(const Shop &shop, const SceneRequest &scene, bool json);
+Exit command_doctor(const Shop &shop);
+
+struct ExportRequest {
+    SceneRequest scene;
+    std::string to;
+    std::filesystem::path folder;
+    int samples_per_pixel = 16;
+    std::uint64_t seed = 1;
+};
+Exit command_export(const Shop &shop, const ExportRequest &request);
+
+struct RenderRequest {
+    SceneRequest scene;
+    std::string with = "tracer";
+    std::optional<std::filesystem::path> output;
+    std::optional<std::filesystem::path> keep; ///< folder for generated inputs and logs
+    int samples_per_pixel = 16;
+    std::uint64_t seed = 1;
+    bool pixel_centres = false;
+    double cut_weight = 1e-6;
+    std::string precision = "double", transport = "tree";
+    double time_limit_s = 600;
+};
+Exit command_render(const Shop &shop, const RenderRequest &request);
+
+struct CheckCommand {
+    std::vector<std::string> claims;
+    std::vector<std::string> with; ///< empty: all, and a missing one is no error
+    std::string preset = "text";
+    std::vector<std::string> assignments;
+    bool quick = false, dry_run = false;
+    std::filesystem::path folder = "threefold-report";
+    std::optional<std::string> json, junit;
+    std::vector<std::string> injections; ///< RENDERER:FAULT
+    std::uint64_t seed = 1;
+    double time_limit_s = 600;
+    std::string precision = "double";
+};
+Exit command_check(const Shop &shop, const CheckCommand &request);
+
+struct CompareRequest {
+    std::vector<std::filesystem::path> pictures;
+    int tile_px = 8;
+    double tolerance = 0.01; ///< on a tile's mean, as a share of the pictures' mean radiance
+    std::optional<std::filesystem::path> folder;
+    std::optional<std::string> json;
+};
+Exit command_compare(const Shop &shop, const CompareRequest &request);
+
+/// Precision and transport by their names on the command line.
+TracerSettings tracer_settings(const std::string &precision, const std::string &transport);
+
+/// Writes to a file, or to stdout for "-".
+void write_result(const std::string &where, const std::string &text);
+
+/// Name and version of each library that a picture or a number depends on.
+std::vector<std::pair<std::string, std::string>> library_versions();
+
+} // namespace threefold

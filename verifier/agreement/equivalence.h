@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// Numbers to verdicts. Agreement is equivalence: an interval inside a tolerance that was fixed before, never "no
+// difference found" (Schuirmann's two one-sided tests, 1987; Welch's degrees of freedom, 1947).
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace threefold {
+
+enum class Verdict { holds, fails, undecided };
+std::string_view to_string(Verdict verdict);
+/// The verdict of "all of these hold".
+Verdict all_of(Verdict a, Verdict b);
+
+/// Each one-sided test is made at this level, so intervals cover 90 %.
+inline constexpr double significance = 0.05;
+
+/// A mean over independent replicates.
+struct Estimate {
+    double mean = 0;
+    double standard_error = 0;
+    double degrees_of_freedom = 0; ///< infinite for a number without noise
+    int replicates = 0;
+};
+
+struct Interval {
+    double low = 0, high = 0;
+};
+
+Estimate estimate(std::span<const double> replicates);
+/// a - b with Welch's degrees of freedom.
+Estimate difference(const Estimate &a, const Estimate &b);
+/// The 1 - 2 * significance interval by Student's t.
+Interval interval(const Estimate &e);
+
+/// What is asked of a number. `equal`: it lies within `tolerance` of `value`. `below` and `above`: it lies on that side.
+enum class Relation { equal, below, above };
+std::string_view to_string(Relation relation);
+
+Verdict judge(const Interval &measured, Relation relation, double value, double tolerance);
+
+/// How many replicates in all would decide, if mean and spread stay as they are; empty when no number would.
+std::optional<int> replicates_to_decide(const Estimate &measured, Relation relation, double value, double tolerance);
+
+/// One-sided p-value of "the true mean is not outside value +- tolerance"; small means that it differs.
+double p_value_of_difference(const Estimate &measured, double value, double tolerance);
+/// Holm's step-down test (1979): does any of these differ, at the family level `significance`?
+bool any_differs(std::vector<double> p_values);
+
+/// One item of a tolerance, fixed before rendering.
+struct BudgetItem {
+    std::string name; ///< "quantisation", "tessellation", ...
+    double value = 0; ///< in the unit of the quantity
+    std::string reason;
+};
+double total(const std::vector<BudgetItem> &budget);
+
+} // namespace threefold

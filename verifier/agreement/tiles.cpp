@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include "verifier/agreement/tiles.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "verifier/measure/radiance.h"
+
+namespace threefold {
+
+namespace {
+
+Estimate of_channel(const std::vector<Image> &tiles, std::size_t tile, int channel) {
+    std::vector<double> values;
+    for (const Image &image : tiles) values.push_back(image.pixels[tile][channel]);
+    return estimate(values);
+}
+
+/// Judges the differences of all tiles; `difference_of(tile, channel)` has the noise.
+template <class DifferenceOf>
+TileComparison judge_tiles(int columns, int rows, int tile_px, double tolerance, DifferenceOf difference_of) {
+    TileComparison c;
+    c.tile_px = tile_px;
+    c.columns = columns;
+    c.rows = rows;
+    c.tolerance = tolerance;
+    std::vector<double> p_values;
+    int needed = 0;
+    bool decidable = true;
+    for (int tile = 0; tile < columns * rows; ++tile) {
+        Verdict verdict = Verdict::holds;
+        for (int channel = 0; channel < 3; ++channel) {
+            const Estimate d = difference_of(static_cast<std::size_t>(tile), channel);
+            const Verdict v = judge(interval(d), Relation::equal, 0, tolerance);
+            verdict = all_of(verdict, v);
+            p_values.push_back(p_value_of_difference(d, 0, tolerance));
+            if (v == Verdict::undecided) {
+                const auto n = replicates_to_decide(d, Relation::equal, 0, tolerance);
+                decidable = decidable && n.has_value();
+                needed = std::max(needed, n.value_or(0));
+            }
+            if (std::abs(d.mean) > std::abs(c.worst_difference)) {
+                c.worst_difference = d.mean;
+                c.worst_column = tile % columns;
+                c.worst_row = tile / columns;
+            }
+        }
+        switch (verdict) {
+        case Verdict::holds: ++c.holding; break;
+        case Verdict::fails: ++c.failing; break;
+        case Verdict::undecided: ++c.open; break;
+        }
+    }
+    if (any_differs(std::move(p_values)))
+        c.verdict = Verdict::fails;
+    else
+        c.verdict = c.failing + c.open == 0 ? Verdict::holds : Verdict::undecided;
+    if (c.verdict == Verdict::undecided && decidable && needed > 0) c.replicates_to_decide = needed;
+    return c;
+}
+
+double mean_radiance(const Image &image) {
+    const Rgb m = rectangle_mean(image, 0, 0, image.width, image.height);
+    return (m.r + m.g + m.b) / 3;
+}
+
+} // namespace
+
+TileComparison compare_tiles(const std::vector<Image> &a, const std::vector<Image> &b, int tile_px, double tolerance) {
+    std::vector<Image> tiles_a, tiles_b;
+    for (const Image &image : a) tiles_a.push_back(tile_means(image, tile_px));
+    for (const Image &image : b) tiles_b.push_back(tile_means(image, tile_px));
+    TileComparison c = judge_tiles(
+        tiles_a.front().width, tiles_a.front().height, tile_px, tolerance, [&](std::size_t tile, int channel) {
+            return difference(of_channel(tiles_a, tile, channel), of_channel(tiles_b, tile, channel));
+        });
+    c.mean_radiance = (mean_radiance(mean(a)) + mean_radiance(mean(b))) / 2;
+    return c;
+}
+
+TileComparison compare_tiles_of_single_pictures(const Image &a, const Image &b, int tile_px, double tolerance) {
+    Image d(a.width, a.height), squares(a.width, a.height);
+    for (std::size_t i = 0; i < d.pixels.size(); ++i) {
+        d.pixels[i] = a.pixels[i] - b.pixels[i];
+        squares.pixels[i] = d.pixels[i] * d.pixels[i];
+    }
+    const Image means = tile_means(d, tile_px), mean_squares = tile_means(squares, tile_px);
+    const double n = static_cast<double>(std::min(tile_px, a.width)) * std::min(tile_px, a.height);
+    TileComparison c = judge_tiles(means.width, means.height, tile_px, tolerance, [&](std::size_t tile, int channel) {
+        const double m = means.pixels[tile][channel];
+        const double variance = std::max(0.0, mean_squares.pixels[tile][channel] - m * m) * n / (n - 1);
+        return Estimate{m, std::sqrt(variance / n), n - 1, 1};
+    });
+    c.mean_radiance = (mean_radiance(a) + mean_radiance(b)) / 2;
+    return c;
+}
+
+Image difference_picture(const Image &a, const Image &b, double full_scale) {
+    Image picture(a.width, a.height);
+    for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
+        const Rgb d = a.pixels[i] - b.pixels[i];
+        const double t = std::clamp((d.r + d.g + d.b) / 3 / full_scale, -1.0, 1.0);
+        const Rgb towards = t > 0 ? Rgb(0.6, 0.02, 0.02) : Rgb(0.02, 0.08, 0.6);
+        picture.pixels[i] = Rgb(0.5) * (1 - std::abs(t)) + towards * std::abs(t);
+    }
+    return picture;
+}
+
+} // namespace threefold

@@ -1,0 +1,359 @@
+// SPDX-License-Identifier: MIT
+#include "verifier/check/check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <set>
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "exporter/image/image_io.h"
+#include "exporter/scene_json.h"
+#include "scenes/validate.h"
+#include "verifier/agreement/tiles.h"
+#include "verifier/measure/radiance.h"
+#include "verifier/tracer/sampler.h"
+
+namespace threefold {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+constexpr int tile_px = 8;
+
+struct PlannedClaim {
+    const Claim *claim;
+    std::vector<Experiment> experiments;
+};
+
+/// What one witness made of one experiment.
+struct Testimony {
+    const Witness *witness;
+    Rendered rendered;
+};
+
+std::vector<Replicate> replicates_of(const Experiment &e, std::uint64_t seed) {
+    std::vector<Replicate> all;
+    for (int k = 0; k < e.replicates; ++k) {
+        Replicate r;
+        r.seed = tracer::mix(seed * 0x10001 + static_cast<std::uint64_t>(k));
+        // Cosets of a lattice: each replicate looks through another point of its pixels.
+        if (e.shift_replicates) {
+            const tracer::PixelSampler where(seed, 0, 0);
+            r.film_offset_px = where.position(static_cast<std::uint32_t>(k)) - Vec2(0.5);
+        }
+        all.push_back(r);
+    }
+    return all;
+}
+
+Camera camera_of(const Experiment &e, const Replicate &replicate) {
+    Camera camera = e.scene.camera;
+    camera.film_offset_px += replicate.film_offset_px;
+    return camera;
+}
+
+void require_known(const std::vector<Assignment> &assignments, const std::vector<PlannedClaim> &plan) {
+    for (const Assignment &a : assignments) {
+        std::vector<std::string> valid;
+        for (const PlannedClaim &p : plan)
+            for (const Experiment &e : p.experiments)
+                for (const auto &[name, value] : e.record.parameters) valid.push_back(name);
+        std::ranges::sort(valid);
+        const auto repeated = std::ranges::unique(valid);
+        valid.erase(repeated.begin(), repeated.end());
+        if (!std::ranges::binary_search(valid, a.name)) throw Error(Exit::usage, unknown_name("parameter", a.name, valid));
+    }
+}
+
+class Run {
+  public:
+    explicit Run(const CheckRequest &request)
+        : request_(request), context_{request.scenes, request.preset, request.assignments, request.quick} {
+        for (const Witness &w : request.witnesses) {
+            WitnessRecord record;
+            record.name = w.name;
+            record.title = w.title;
+            record.present = w.present();
+            if (w.installed) {
+                record.version = w.installed->version;
+                record.program = w.installed->program.string();
+            }
+            if (!w.present())
+                record.problem = fmt::format("{} is not installed (Debian package {})", w.title, w.package);
+            if (const auto fault = request.injected.find(w.name); fault != request.injected.end())
+                record.injected_fault = to_string(fault->second);
+            result_.witnesses.push_back(record);
+        }
+    }
+
+    CheckOutcome operator()() {
+        const auto start = Clock::now();
+        result_.started = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+        result_.preset = to_string(request_.preset);
+        result_.quick = request_.quick;
+        for (const Assignment &a : request_.assignments) result_.assignments[a.name] = a.value;
+
+        const std::vector<PlannedClaim> plan = make_plan();
+        for (const PlannedClaim &planned : plan) {
+            result_.claims.push_back(judge_claim(planned));
+            if (planned.claim->name == calibration_name) take_votes_away(result_.claims.back());
+        }
+        conclude();
+        result_.seconds = seconds_since(start);
+        return {std::move(result_), exit_};
+    }
+
+  private:
+    static constexpr std::string_view calibration_name = "calibration";
+
+    std::vector<PlannedClaim> make_plan() {
+        std::vector<PlannedClaim> plan;
+        for (const Claim &claim : request_.claims) plan.push_back({&claim, claim.experiments(context_)});
+        std::ranges::stable_partition(plan, [](const PlannedClaim &p) { return p.claim->name == calibration_name; });
+        require_known(request_.assignments, plan);
+        for (PlannedClaim &p : plan)
+            for (Experiment &e : p.experiments) {
+                validate(e.scene);
+                e.record.scene_hash = scene_hash(e.scene);
+                ++experiments_;
+            }
+        return plan;
+    }
+
+    WitnessRecord &record_of(const Witness &w) {
+        return *std::ranges::find(result_.witnesses, w.name, &WitnessRecord::name);
+    }
+
+    /// A renderer that is missing, has failed calibration or broke down has no vote any more.
+    bool votes(const Witness &w) { return record_of(w).problem.empty(); }
+
+    std::optional<Testimony> ask(const Witness &w, const Experiment &e) {
+        WitnessRecord &record = record_of(w);
+        if (!record.present || broken_.contains(w.name)) return std::nullopt;
+        const double done = finished_[w.name]++;
+        const auto tell = [&](double share) {
+            if (request_.on_progress) request_.on_progress(w.name, (done + share) / experiments_, e.name);
+        };
+        tell(0);
+        RenderJob job;
+        job.scene = e.scene;
+        if (const auto fault = request_.injected.find(w.name); fault != request_.injected.end())
+            job.scene = with_fault(job.scene, fault->second);
+        job.sampling = e.sampling;
+        job.samples_per_pixel = e.samples_per_pixel;
+        job.replicates = replicates_of(e, request_.seed);
+        job.surface_tolerance_mm = e.surface_tolerance_mm;
+        job.cut_weight = e.cut_weight;
+        job.threads = request_.threads;
+        try {
+            Testimony t{&w, render(w, job, {request_.folder, e.name, request_.tracer, request_.time_limit, tell})};
+            t.rendered.record.experiment = e.name;
+            if (!t.rendered.record.from_cache) {
+                record.seconds += t.rendered.record.seconds;
+                result_.renderer_seconds += t.rendered.record.seconds;
+                if (!w.adapter) result_.tracer_seconds += t.rendered.record.seconds;
+            }
+            result_.renders.push_back(t.rendered.record);
+            tell(1);
+            return t;
+        } catch (const Error &error) {
+            // The program itself failed: the others go on, and what they found is not lost.
+            const bool of_renderer =
+                w.adapter && (error.code() == Exit::timed_out || error.code() == Exit::input_output || error.code() == Exit::bad_data);
+            if (!of_renderer) throw;
+            record.problem = fmt::format("{} gave no picture of {}: {}", w.title, e.name, error.what());
+            if (error.code() != Exit::bad_data) broken_.insert(w.name); // what it refuses says nothing of other scenes
+            if (error.code() == Exit::timed_out) exit_ = Exit::timed_out;
+            return std::nullopt;
+        }
+    }
+
+    ClaimResult judge_claim(const PlannedClaim &planned) {
+        ClaimResult result;
+        result.name = planned.claim->name;
+        result.statement = planned.claim->statement;
+        bool complete = true;
+        for (const Experiment &e : planned.experiments) {
+            result.experiments.push_back(e.record);
+            std::vector<Testimony> testimonies;
+            for (const Witness &w : request_.witnesses) {
+                if (auto t = ask(w, e)) testimonies.push_back(*std::move(t));
+                complete = complete && record_of(w).problem.empty() && record_of(w).present;
+            }
+            judge_numbers(e, testimonies, result);
+            judge_pictures(e, testimonies, result);
+        }
+        result.verdict = complete ? Verdict::holds : Verdict::undecided;
+        const bool calibrating = result.name == calibration_name;
+        const auto counts = [&](const std::string &witness, const std::string &versus) {
+            for (const WitnessRecord &w : result_.witnesses)
+                if ((w.name == witness || w.name == versus) && !w.problem.empty() && !calibrating) return false;
+            return true;
+        };
+        for (const Row &row : result.rows)
+            if (counts(row.witness, row.versus)) weigh(result, row);
+        for (const TileComparison &tiles : result.tiles)
+            if (counts(tiles.witness, tiles.versus)) weigh(result, tiles);
+        if (planned.claim->summary) result.summary = planned.claim->summary(context_, result.verdict);
+        if (planned.claim->notes) result.notes = planned.claim->notes(context_);
+        return result;
+    }
+
+    /// Rows against the closed form name the renderer that is wrong; a difference between two names neither alone.
+    template <class Judged>
+    static void weigh(ClaimResult &result, const Judged &judged) {
+        result.verdict = all_of(result.verdict, judged.verdict);
+        if (judged.verdict == Verdict::fails && std::ranges::count(result.blamed, judged.witness) == 0 && judged.versus.empty())
+            result.blamed.push_back(judged.witness);
+    }
+
+    void judge_numbers(const Experiment &e, const std::vector<Testimony> &testimonies, ClaimResult &result) {
+        std::map<std::string, std::vector<std::pair<const Witness *, Row>>> between;
+        for (const Testimony &t : testimonies) {
+            std::map<std::string, std::vector<double>> readings;
+            const std::vector<Replicate> replicates = replicates_of(e, request_.seed);
+            if (e.measure)
+                for (std::size_t k = 0; k < replicates.size(); ++k)
+                    for (const Reading &r : e.measure(t.rendered.images[k], camera_of(e, replicates[k])))
+                        readings[r.quantity].push_back(r.value);
+            if (!e.predict) continue;
+            for (const Expected &expected : e.predict(t.rendered.record.accuracy)) {
+                Row row;
+                row.experiment = e.name;
+                row.quantity = expected.quantity;
+                row.unit = expected.unit;
+                row.witness = t.witness->name;
+                row.relation = expected.relation;
+                row.measured = estimate(readings[expected.quantity]);
+                row.expected = expected.value;
+                row.budget = expected.budget;
+                result.rows.push_back(judged(row));
+                if (expected.between_renderers) between[expected.quantity].emplace_back(t.witness, row);
+            }
+        }
+        for (const auto &[quantity, rows] : between)
+            for (std::size_t i = 0; i < rows.size(); ++i)
+                for (std::size_t j = i + 1; j < rows.size(); ++j) result.rows.push_back(judged(compared(rows[i].second, rows[j].second)));
+    }
+
+    static Row compared(const Row &a, const Row &b) {
+        Row row = a;
+        row.versus = b.witness;
+        row.measured = difference(a.measured, b.measured);
+        row.expected = 0;
+        for (const BudgetItem &item : b.budget) {
+            const auto mine = std::ranges::find(row.budget, item.name, &BudgetItem::name);
+            if (mine != row.budget.end())
+                mine->value += item.value;
+            else
+                row.budget.push_back(item);
+        }
+        return row;
+    }
+
+    static Row judged(Row row) {
+        row.tolerance = total(row.budget);
+        row.interval = interval(row.measured);
+        row.verdict = judge(row.interval, row.relation, row.expected, row.tolerance);
+        if (row.verdict == Verdict::undecided)
+            row.replicates_to_decide = replicates_to_decide(row.measured, row.relation, row.expected, row.tolerance);
+        return row;
+    }
+
+    void judge_pictures(const Experiment &e, const std::vector<Testimony> &testimonies, ClaimResult &result) {
+        std::vector<Image> means;
+        for (const Testimony &t : testimonies) {
+            means.push_back(mean(t.rendered.images));
+            result.pictures.push_back({ReportPicture::Kind::render, e.name, t.witness->title, encode_png_preview(means.back())});
+        }
+        if (!e.tile_budget) return;
+        for (std::size_t i = 0; i < testimonies.size(); ++i)
+            for (std::size_t j = i + 1; j < testimonies.size(); ++j) {
+                const Testimony &a = testimonies[i], &b = testimonies[j];
+                const std::vector<BudgetItem> budget =
+                    e.tile_budget(a.rendered.record.accuracy, b.rendered.record.accuracy);
+                TileComparison tiles = compare_tiles(a.rendered.images, b.rendered.images, tile_px, total(budget));
+                tiles.experiment = e.name;
+                tiles.witness = a.witness->name;
+                tiles.versus = b.witness->name;
+                tiles.budget = budget;
+                const double scale = 0.1 * tiles.mean_radiance;
+                result.pictures.push_back(
+                    {ReportPicture::Kind::difference, e.name,
+                     fmt::format("{} minus {}: red brighter, blue darker, full colour at 10 % of the mean", a.witness->title,
+                                 b.witness->title),
+                     encode_png_preview(difference_picture(means[i], means[j], scale))});
+                result.tiles.push_back(std::move(tiles));
+            }
+    }
+
+    void take_votes_away(const ClaimResult &calibration) {
+        for (WitnessRecord &w : result_.witnesses) {
+            if (!w.present || broken_.contains(w.name)) continue;
+            Verdict verdict = Verdict::holds;
+            for (const Row &row : calibration.rows)
+                if (row.witness == w.name) verdict = all_of(verdict, row.verdict);
+            w.calibrated = verdict == Verdict::holds;
+            if (verdict != Verdict::holds) w.problem = fmt::format("{} failed its calibration: it has no vote", w.title);
+        }
+    }
+
+    void conclude() {
+        result_.verdict = Verdict::holds;
+        std::vector<std::string> failing, open, blamed, problems;
+        for (const ClaimResult &c : result_.claims) {
+            result_.verdict = all_of(result_.verdict, c.verdict);
+            if (c.verdict == Verdict::fails) failing.push_back(c.name);
+            if (c.verdict == Verdict::undecided) open.push_back(c.name);
+            for (const std::string &b : c.blamed)
+                if (std::ranges::count(blamed, b) == 0) blamed.push_back(b);
+        }
+        for (const WitnessRecord &w : result_.witnesses)
+            if (!w.problem.empty()) problems.push_back(w.problem);
+        switch (result_.verdict) {
+        case Verdict::holds:
+            result_.summary = fmt::format("Every conclusion checked holds in {}, within tolerances that were fixed before "
+                                          "rendering.",
+                                          voters());
+            break;
+        case Verdict::fails:
+            result_.summary = fmt::format("Fails: {}{}.", fmt::join(failing, ", "),
+                                          blamed.empty() ? "" : fmt::format(" (contradicted by {})", fmt::join(blamed, ", ")));
+            break;
+        case Verdict::undecided: result_.summary = fmt::format("Undecided: {}.", fmt::join(open, ", ")); break;
+        }
+        for (const std::string &p : problems) result_.summary += " " + p + ".";
+        if (exit_ != Exit::timed_out)
+            exit_ = result_.verdict == Verdict::holds   ? Exit::holds
+                    : result_.verdict == Verdict::fails ? Exit::fails
+                                                        : Exit::undecided;
+    }
+
+    std::string voters() {
+        std::vector<std::string> titles;
+        for (const WitnessRecord &w : result_.witnesses)
+            if (w.problem.empty()) titles.push_back(w.title);
+        return fmt::format("{}", fmt::join(titles, ", "));
+    }
+
+    const CheckRequest &request_;
+    ClaimContext context_;
+    RunResult result_;
+    Exit exit_ = Exit::holds;
+    double experiments_ = 0;
+    std::map<std::string, double> finished_;
+    std::set<std::string> broken_;
+};
+
+} // namespace
+
+CheckOutcome check(const CheckRequest &request) { return Run(request)(); }
+
+} // namespace threefold

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// From claims to verdicts: build the scenes, predict, render with every witness, measure, judge.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "scenes/error.h"
+#include "verifier/agreement/result.h"
+#include "verifier/claims/claim.h"
+#include "verifier/witness/witness.h"
+
+namespace threefold {
+
+struct CheckRequest {
+    std::vector<Claim> claims; ///< calibration is put first if it is not among them
+    std::vector<Witness> witnesses;
+    std::vector<SceneRecipe> scenes;
+    Preset preset = Preset::text;
+    std::vector<Assignment> assignments;
+    bool quick = false;
+    std::uint64_t seed = 1;
+    int threads = 0;
+    TracerSettings tracer;
+    std::chrono::milliseconds time_limit{std::chrono::minutes(10)};
+    std::filesystem::path folder;
+    std::map<std::string, Fault> injected; ///< by witness name
+    /// `share` of all that this witness has to do.
+    std::function<void(const std::string &witness, double share, const std::string &now)> on_progress;
+};
+
+struct CheckOutcome {
+    RunResult result;
+    Exit exit = Exit::holds;
+};
+
+/// Throws Error(usage) for an assignment that no scene of the claims has, Error(bad_data) for a scene without meaning:
+/// both before anything is rendered. What goes wrong with one renderer is told in the result and does not stop the others.
+CheckOutcome check(const CheckRequest &request);
+
+} // namespace threefold

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// A conclusion that can be checked: what to render, what the closed form predicts, how a picture is measured. No claim
+// knows which renderer makes a picture. A claim is added by a file claim_NAME.cpp and a line in claims.cpp.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "exporter/image/image.h"
+#include "exporter/job.h"
+#include "scenes/parameters.h"
+#include "verifier/agreement/equivalence.h"
+#include "verifier/agreement/result.h"
+#include "verifier/claims/fault.h"
+
+namespace threefold {
+
+/// What the closed form says of one number, and how far a renderer may be from it, before anything is rendered.
+struct Expected {
+    std::string quantity, unit;
+    Relation relation = Relation::equal;
+    double value = 0;
+    std::vector<BudgetItem> budget;  ///< its total is the tolerance; empty for `below` and `above`
+    bool between_renderers = false;  ///< also compared between each pair, within the sum of both tolerances
+};
+
+/// One number read from one picture.
+struct Reading {
+    std::string quantity;
+    double value;
+};
+
+/// One scene of a claim, rendered K times by every renderer.
+struct Experiment {
+    std::string name;  ///< "solid-map"
+    std::string title; ///< for people
+    ExperimentRecord record;
+    Scene scene;
+    Sampling sampling = Sampling::box;
+    int samples_per_pixel = 16; ///< a renderer with random branches takes several times as many
+    int replicates = 8;
+    /// Replicates look through different points of each pixel (for one ray a pixel, so that they are independent).
+    bool shift_replicates = false;
+    double surface_tolerance_mm = 1e-3;
+    double cut_weight = 1e-6;
+
+    std::function<std::vector<Expected>(const Accuracy &)> predict;
+    /// `camera` is that of the replicate: film offset included.
+    std::function<std::vector<Reading>(const Image &, const Camera &camera)> measure;
+    /// Tolerance on the mean of a tile (absolute radiance); empty function: pictures are not compared tile by tile.
+    std::function<std::vector<BudgetItem>(const Accuracy &, const Accuracy &)> tile_budget;
+};
+
+/// Under what a claim is checked.
+struct ClaimContext {
+    const std::vector<SceneRecipe> &scenes;
+    Preset preset = Preset::text;
+    std::vector<Assignment> assignments; ///< --set, in order
+    bool quick = false;
+
+    /// The scene with the preset, then `defaults`, then the user's assignments, then `fixed`: what the measuring needs.
+    Experiment experiment(std::string name, std::string title, std::string_view scene,
+                          const std::vector<Assignment> &defaults, const std::vector<Assignment> &fixed) const;
+};
+
+struct Claim {
+    std::string name;
+    std::string statement;
+    std::function<std::vector<Experiment>(const ClaimContext &)> experiments;
+    /// One or two sentences for an art historian, by verdict; and where the conclusion flips.
+    std::function<std::string(const ClaimContext &, Verdict)> summary;
+    std::function<std::vector<std::string>(const ClaimContext &)> notes;
+    /// The fault that must make it fail when one renderer's export has it.
+    Fault mutant;
+};
+
+std::vector<Claim> built_in_claims();
+const Claim &find_claim(const std::vector<Claim> &claims, std::string_view name);
+
+Claim claim_calibration();
+Claim claim_energy();
+Claim claim_solid_vs_hollow();
+Claim claim_rim_reads_wall();
+
+/// `name=value` for whatever fmt can print, with all digits.
+Assignment assign(std::string_view name, double value);
+Assignment assign(std::string_view name, std::string_view value);
+
+} // namespace threefold

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// Pictures of one experiment stand side by side: the renders first, then the differences and the optical maps.
+#include <algorithm>
+#include <cstdint>
+#include <iterator>
+#include <vector>
+
+#include <OpenImageIO/strutil.h>
+#include <fmt/format.h>
+
+#include "verifier/report/html_parts.h"
+#include "verifier/report/text.h"
+#include "verifier/report/words.h"
+
+namespace threefold::report {
+
+namespace {
+
+/// Up to this width a picture is enlarged, and its pixels stay squares; wider ones are reduced, and smoothed.
+constexpr std::size_t pixelated_up_to_px = 420;
+constexpr std::size_t greatest_columns = 4;
+
+bool is_render(const ReportPicture &picture) { return picture.kind == ReportPicture::Kind::render; }
+
+void add_picture(Out &out, const ReportPicture &picture, const std::string &scene) {
+    const auto [width, height] = png_size(picture.png);
+    const std::string title = html_text(one_line(picture.title));
+    // OpenImageIO's encoder of Debian 12 takes its own string_view.
+    const std::string data = OIIO::Strutil::base64_encode({picture.png.data(), picture.png.size()});
+    fmt::format_to(
+        std::back_inserter(out),
+        R"(<figure><button type="button" class="picture{}" aria-label="Enlarge: {}"><img src="data:image/png;base64,{}" )"
+        R"(width="{}" height="{}" alt="{}, {}"></button><figcaption>{}</figcaption></figure>)"
+        "\n",
+        width <= pixelated_up_to_px ? " small" : "", title, data, width, height, scene, title, title);
+}
+
+void add_strip(Out &out, const std::vector<const ReportPicture *> &pictures, const std::string &scene,
+               std::string_view kind, std::size_t columns) {
+    if (pictures.empty()) return;
+    fmt::format_to(std::back_inserter(out), "<div class=\"strip {}\" style=\"--n:{}\">\n", kind, columns);
+    for (const ReportPicture *picture : pictures) add_picture(out, *picture, scene);
+    out += "</div>\n";
+}
+
+} // namespace
+
+PictureSize png_size(std::string_view png) {
+    if (png.size() < 24 || !png.starts_with("\x89PNG") || png.substr(12, 4) != "IHDR") return {};
+    const auto big_endian = [&](std::size_t at) {
+        std::size_t value = 0;
+        for (std::size_t i = at; i < at + 4; ++i) value = value << 8 | static_cast<std::uint8_t>(png[i]);
+        return value;
+    };
+    return {big_endian(16), big_endian(20)};
+}
+
+void add_pictures(Out &out, const ClaimResult &claim) {
+    std::vector<std::string> experiments;
+    for (const ReportPicture &picture : claim.pictures)
+        if (std::ranges::find(experiments, picture.experiment) == experiments.end())
+            experiments.push_back(picture.experiment);
+    for (const std::string &experiment : experiments) {
+        std::vector<const ReportPicture *> renders, others;
+        for (const ReportPicture &picture : claim.pictures)
+            if (picture.experiment == experiment) (is_render(picture) ? renders : others).push_back(&picture);
+        const std::string title = html_text(one_line(experiment_title(claim, experiment)));
+        fmt::format_to(std::back_inserter(out), "<section class=\"experiment\" data-title=\"{}\">\n<h3>{}</h3>\n",
+                       title, title);
+        const std::size_t columns = std::min(std::max(renders.size(), others.size()), greatest_columns);
+        add_strip(out, renders, title, "renders", columns);
+        add_strip(out, others, title, "others", columns);
+        out += "</section>\n";
+    }
+}
+
+} // namespace threefold::report

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#include "verifier/report/terminal.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "verifier/report/numbers.h"
+#include "verifier/report/text.h"
+#include "verifier/report/words.h"
+
+namespace threefold {
+
+namespace {
+
+using namespace report;
+
+/// Paints what is already free of control characters.
+struct Painter {
+    bool colour = false;
+
+    std::string bold(std::string_view text) const { return wrap("1", text); }
+    std::string faint(std::string_view text) const { return wrap("2", text); }
+    std::string verdict(Verdict verdict, std::string_view text) const {
+        return wrap(verdict == Verdict::holds ? "32" : verdict == Verdict::fails ? "1;31" : "33", text);
+    }
+
+private:
+    std::string wrap(std::string_view code, std::string_view text) const {
+        return colour ? fmt::format("\x1b[{}m{}\x1b[0m", code, text) : std::string(text);
+    }
+};
+
+std::string mark(const Painter &paint, Verdict verdict) {
+    return paint.verdict(verdict, fmt::format("{} {:<9}", symbol(verdict), to_string(verdict)));
+}
+
+std::string renderer_line(const RunResult &result, const ClaimResult &claim, const Painter &paint) {
+    std::vector<std::string> parts;
+    const auto add = [&](const std::string &who, std::optional<Verdict> verdict) {
+        if (verdict) parts.push_back(fmt::format("{} {}", one_line(who), paint.verdict(*verdict, to_string(*verdict))));
+    };
+    for (const WitnessRecord &witness : result.witnesses)
+        add(title_of(result, witness.name), against_closed_form(claim, witness.name));
+    add("between renderers", between_renderers(claim));
+    std::string line;
+    for (const std::string &part : parts) line += (line.empty() ? "" : " · ") + part;
+    return line;
+}
+
+void add_item(std::string &out, const Painter &paint, Verdict verdict, const std::string &what,
+              const std::string &numbers, const std::string &advice) {
+    out += fmt::format("      {} {}\n", mark(paint, verdict), one_line(what));
+    out += fmt::format("        {}\n", one_line(numbers));
+    if (!advice.empty()) out += fmt::format("        {}\n", paint.faint(advice));
+}
+
+void add_claim(std::string &out, const RunResult &result, const ClaimResult &claim, const Painter &paint,
+               std::size_t width, int verbosity) {
+    out += fmt::format("  {} {}{}  {}\n", mark(paint, claim.verdict), paint.bold(one_line(claim.name)),
+                       std::string(width - claim.name.size(), ' '), one_line(claim.statement));
+    if (verbosity < 0) return;
+    if (const std::string line = renderer_line(result, claim, paint); !line.empty()) out += "      " + line + "\n";
+    const auto shown = [&](Verdict verdict) { return verbosity > 0 || verdict != Verdict::holds; };
+    for (const Row &row : claim.rows)
+        if (shown(row.verdict))
+            add_item(
+                out, paint, row.verdict,
+                fmt::format("{}, {}: {}", row.quantity, experiment_title(claim, row.experiment), title_of(result, row)),
+                sentence(row), what_would_decide(row.verdict, row.replicates_to_decide));
+    for (const TileComparison &tiles : claim.tiles)
+        if (shown(tiles.verdict))
+            add_item(out, paint, tiles.verdict,
+                     fmt::format("pictures tile by tile, {}: {} against {}", experiment_title(claim, tiles.experiment),
+                                 title_of(result, tiles.witness), title_of(result, tiles.versus)),
+                     sentence(tiles), what_would_decide(tiles.verdict, tiles.replicates_to_decide));
+    if (claim.verdict != Verdict::holds && !claim.summary.empty()) out += "      " + one_line(claim.summary) + "\n";
+    if (verbosity > 0)
+        for (const std::string &note : claim.notes) out += "      " + one_line(note) + "\n";
+}
+
+void add_witness(std::string &out, const WitnessRecord &witness, const Painter &paint) {
+    std::string state = !witness.present      ? "missing"
+                        : !witness.calibrated ? "not calibrated"
+                        : *witness.calibrated ? "calibrated"
+                                              : "failed calibration, has no vote";
+    if (!witness.problem.empty()) state += ": " + one_line(witness.problem);
+    const bool good = witness.present && witness.calibrated.value_or(false) && witness.problem.empty();
+    out += fmt::format("  {}{}, {}{}\n", paint.bold(one_line(witness.title.empty() ? witness.name : witness.title)),
+                       witness.version.empty() ? "" : " " + one_line(witness.version),
+                       good ? state : paint.verdict(Verdict::undecided, state),
+                       witness.seconds > 0 ? ", " + duration(witness.seconds) : "");
+    if (!witness.injected_fault.empty())
+        out += "    " + paint.verdict(Verdict::fails, "fault put in on purpose: " + one_line(witness.injected_fault)) +
+               "\n";
+}
+
+} // namespace
+
+std::string to_text(const RunResult &result, bool colour, int verbosity) {
+    const Painter paint{colour};
+    std::string out =
+        paint.verdict(result.verdict, fmt::format("{} {}.", symbol(result.verdict), headline(result))) + "\n";
+    if (!result.summary.empty()) out += one_line(result.summary) + "\n";
+    if (verbosity >= 0 && !result.witnesses.empty()) {
+        out += "\n";
+        for (const WitnessRecord &witness : result.witnesses) add_witness(out, witness, paint);
+    }
+    if (!result.claims.empty()) out += "\n";
+    std::size_t width = 0;
+    for (const ClaimResult &claim : result.claims) width = std::max(width, claim.name.size());
+    for (const ClaimResult &claim : result.claims) add_claim(out, result, claim, paint, width, verbosity);
+    if (verbosity >= 0 && result.seconds > 0)
+        out += paint.faint(fmt::format("\n{} in all, {} of it in renderers.", duration(result.seconds),
+                                       duration(result.renderer_seconds))) +
+               "\n";
+    return out;
+}
+
+} // namespace threefold

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#include "verifier/report/words.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "verifier/report/numbers.h"
+
+namespace threefold::report {
+
+namespace {
+
+std::optional<Verdict> combine(std::optional<Verdict> a, Verdict b) { return a ? all_of(*a, b) : b; }
+
+std::string expectation(const Row &row, double resolution) {
+    const std::string value = bound_at(row.expected, resolution);
+    switch (row.relation) {
+    case Relation::equal:
+        return fmt::format("expected {} within {}", value, number(row.tolerance));
+    case Relation::below:
+        return "expected below " + value;
+    case Relation::above:
+        return "expected above " + value;
+    }
+    return value;
+}
+
+} // namespace
+
+std::string headline(const RunResult &result) {
+    const auto with = [&](Verdict v) { return std::ranges::count(result.claims, v, &ClaimResult::verdict); };
+    const auto claims = std::ssize(result.claims);
+    const auto fails = with(Verdict::fails), undecided = with(Verdict::undecided);
+    if (claims == 0) return "Nothing was checked";
+    if (fails == 0 && undecided == 0) {
+        const std::string all = claims == 1 ? "The claim holds" : fmt::format("All {} claims hold", claims);
+        return result.verdict == Verdict::holds ? all : all + ", but not everything was tested";
+    }
+    if (claims == 1) return fails ? "The claim fails" : "The claim is undecided";
+    if (fails == 0)
+        return fmt::format("{} of {} claims {} undecided", undecided, claims, undecided == 1 ? "is" : "are");
+    std::string text = fmt::format("{} of {} claims {}", fails, claims, fails == 1 ? "fails" : "fail");
+    if (undecided) text += fmt::format(", {} {} undecided", undecided, undecided == 1 ? "is" : "are");
+    return text;
+}
+
+std::string_view symbol(Verdict verdict) {
+    switch (verdict) {
+    case Verdict::holds:
+        return "✓";
+    case Verdict::fails:
+        return "✗";
+    case Verdict::undecided:
+        return "?";
+    }
+    return "";
+}
+
+std::string title_of(const RunResult &result, std::string_view witness) {
+    const auto found = std::ranges::find(result.witnesses, witness, &WitnessRecord::name);
+    return found == result.witnesses.end() || found->title.empty() ? std::string(witness) : found->title;
+}
+
+std::string title_of(const RunResult &result, const Row &row) {
+    const std::string title = title_of(result, row.witness);
+    return row.versus.empty() ? title : title + " minus " + title_of(result, row.versus);
+}
+
+std::string experiment_title(const ClaimResult &claim, std::string_view experiment) {
+    const auto found = std::ranges::find(claim.experiments, experiment, &ExperimentRecord::name);
+    return found == claim.experiments.end() || found->title.empty() ? std::string(experiment) : found->title;
+}
+
+std::optional<Verdict> against_closed_form(const ClaimResult &claim, std::string_view witness) {
+    std::optional<Verdict> all;
+    for (const Row &row : claim.rows)
+        if (row.versus.empty() && row.witness == witness) all = combine(all, row.verdict);
+    return all;
+}
+
+std::optional<Verdict> between_renderers(const ClaimResult &claim) {
+    std::optional<Verdict> all;
+    for (const Row &row : claim.rows)
+        if (!row.versus.empty()) all = combine(all, row.verdict);
+    for (const TileComparison &tiles : claim.tiles) all = combine(all, tiles.verdict);
+    return all;
+}
+
+std::optional<Verdict> of_all_rows(const ClaimResult &claim) {
+    std::optional<Verdict> all = between_renderers(claim);
+    for (const Row &row : claim.rows) all = combine(all, row.verdict);
+    return all;
+}
+
+std::string sentence(const Row &row) {
+    const double step = resolution(row);
+    const std::string unit = row.unit.empty() ? "" : " " + row.unit;
+    return fmt::format("measured {}{} (90 % interval {} to {}), {}{}", number_at(row.measured.mean, step), unit,
+                       number_at(row.interval.low, step), number_at(row.interval.high, step), expectation(row, step),
+                       unit);
+}
+
+std::string sentence(const TileComparison &t) {
+    const auto share = [&](double radiance) {
+        return t.mean_radiance > 0 ? percent(radiance / t.mean_radiance) + " of the mean radiance"
+                                   : number(radiance) + " in radiance";
+    };
+    std::string text =
+        fmt::format("worst tile (column {}, row {}) differs by {}, tolerance {}; {} hold", t.worst_column, t.worst_row,
+                    share(t.worst_difference), share(t.tolerance), count(t.holding, "tile"));
+    if (t.holding == 1) text += "s";
+    if (t.failing) text += fmt::format(", {} {}", t.failing, t.failing == 1 ? "fails" : "fail");
+    if (t.open) text += fmt::format(", {} undecided", t.open);
+    return text;
+}
+
+std::string what_would_decide(Verdict verdict, std::optional<int> replicates) {
+    if (verdict != Verdict::undecided) return {};
+    return replicates ? count(*replicates, "replicate") + " would decide" : "more replicates would not decide";
+}
+
+} // namespace threefold::report

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// Where in a pixel the samples lie: the Sobol (0,2)-sequence, Owen-scrambled by hashing.
+// Burley, Practical Hash-based Owen Scrambling, JCGT 9(4), 2020.
+#pragma once
+
+#include <cstdint>
+
+#include "scenes/scene.h"
+
+namespace threefold::tracer {
+
+/// A well-mixing hash of 64 bits (SplitMix64, Steele et al. 2014).
+constexpr std::uint64_t mix(std::uint64_t x) {
+    x += 0x9e3779b97f4a7c15u;
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+    return x ^ (x >> 31);
+}
+
+constexpr std::uint32_t reverse_bits(std::uint32_t x) {
+    x = (x << 16) | (x >> 16);
+    x = ((x & 0x00ff00ffu) << 8) | ((x & 0xff00ff00u) >> 8);
+    x = ((x & 0x0f0f0f0fu) << 4) | ((x & 0xf0f0f0f0u) >> 4);
+    x = ((x & 0x33333333u) << 2) | ((x & 0xccccccccu) >> 2);
+    return ((x & 0x55555555u) << 1) | ((x & 0xaaaaaaaau) >> 1);
+}
+
+/// Scrambles the bits of a fraction as a random tree of swaps does (Laine and Karras' hash, Burley's constants).
+constexpr std::uint32_t owen_scramble(std::uint32_t x, std::uint32_t seed) {
+    x = reverse_bits(x);
+    x ^= x * 0x3d20adeau;
+    x += seed;
+    x *= (seed >> 16) | 1u;
+    x ^= x * 0x05526c56u;
+    x ^= x * 0x53a22864u;
+    return reverse_bits(x);
+}
+
+/// The sequence of one pixel in one replicate.
+class PixelSampler {
+  public:
+    PixelSampler(std::uint64_t seed, int column, int row)
+        : key_(mix(seed ^ mix((static_cast<std::uint64_t>(static_cast<std::uint32_t>(row)) << 32) |
+                              static_cast<std::uint32_t>(column)))) {}
+
+    /// The k-th position in the unit square.
+    Vec2 position(std::uint32_t k) const {
+        const std::uint32_t shuffled = owen_scramble(k, static_cast<std::uint32_t>(key_));
+        return {fraction(owen_scramble(reverse_bits(shuffled), static_cast<std::uint32_t>(mix(key_ + 1)))),
+                fraction(owen_scramble(second_dimension(shuffled), static_cast<std::uint32_t>(mix(key_ + 2))))};
+    }
+
+    /// Independent numbers in [0, 1) for choices along a path.
+    double next() { return static_cast<double>(mix(key_ + 3 + ++drawn_) >> 11) * 0x1p-53; }
+
+  private:
+    static constexpr std::uint32_t second_dimension(std::uint32_t k) {
+        std::uint32_t x = 0, direction = 1u << 31;
+        for (; k; k >>= 1, direction ^= direction >> 1)
+            if (k & 1) x ^= direction;
+        return x;
+    }
+    static double fraction(std::uint32_t x) { return x * 0x1p-32; }
+
+    std::uint64_t key_;
+    std::uint64_t drawn_ = 0;
+};
+
+} // namespace threefold::tracer
