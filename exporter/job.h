@@ -32,11 +32,11 @@ struct RenderJob {
 /// How far a picture can be from the exact one apart from sampling noise: stated before rendering, itemised, and in
 /// quantities that mean the same for every renderer. Claims build their tolerances from it.
 struct Accuracy {
-    double radiance_step = 0; ///< greatest error of a stored radiance through its number format
-    double surface_mm = 0;    ///< greatest distance between a rendered glass surface and the true one
-    double rounding_mm = 0;   ///< error of a position through the arithmetic, at the scale of the scene
-    double filter_px = 0;     ///< standard deviation of the sample position under Sampling::pixel_centres
-    double cut_weight = 0;    ///< branches below this weight are dropped; 0: none is dropped
+    double radiance_step = 0;      ///< greatest error of a stored radiance through its number format
+    double surface_mm = 0;         ///< greatest distance between a rendered glass surface and the true one
+    double rounding_mm = 0;        ///< error of a position through the arithmetic, at the scale of the scene
+    double filter_px = 0;          ///< standard deviation of the sample position under Sampling::pixel_centres
+    double cut_weight = 0;         ///< branches below this weight are dropped; 0: none is dropped
     bool cuts_whole_trees = false; ///< cut_weight bounds all that is dropped of a ray's tree, not each branch
     bool random_branches = false;  ///< follows one branch at random where light splits: its noise is much larger
 };

@@ -19,21 +19,25 @@ Json to_json(const Glass &glass) {
 }
 
 Json to_json(const Paint &paint) {
-    return std::visit(
-        overloaded{
-            [](const Rgb &colour) { return to_json(colour); },
-            [](const std::shared_ptr<const Texture> &t) {
-                const std::string_view bytes(reinterpret_cast<const char *>(t->rgb.data()), t->rgb.size() * sizeof(t->rgb[0]));
-                return Json{{"width", t->width}, {"height", t->height}, {"hash", content_hash(bytes)}};
-            },
-        },
-        paint);
+    return std::visit(overloaded{
+                          [](const Rgb &colour) { return to_json(colour); },
+                          [](const std::shared_ptr<const Texture> &t) {
+                              const std::string_view bytes(reinterpret_cast<const char *>(t->rgb.data()),
+                                                           t->rgb.size() * sizeof(t->rgb[0]));
+                              return Json{{"width", t->width}, {"height", t->height}, {"hash", content_hash(bytes)}};
+                          },
+                      },
+                      paint);
 }
 
 Json to_json(const Surface &surface) {
     return std::visit(overloaded{
-                          [](const Diffuse &d) { return Json{{"diffuse", to_json(d.reflectance)}}; },
-                          [](const Emissive &e) { return Json{{"emissive", to_json(e.radiance)}}; },
+                          [](const Diffuse &d) {
+                              return Json{{"diffuse", to_json(d.reflectance)}};
+                          },
+                          [](const Emissive &e) {
+                              return Json{{"emissive", to_json(e.radiance)}};
+                          },
                           [](const CoordinateCard &) { return Json("coordinate card"); },
                       },
                       surface);
@@ -52,38 +56,44 @@ Json to_json(const Mesh &mesh) {
 }
 
 Json to_json(const Shape &shape) {
-    return std::visit(overloaded{
-                          [](const GlassBall &b) {
-                              return Json{{"ball",
-                                           {{"centre_mm", to_json(b.centre_mm)},
-                                            {"radius_mm", b.radius_mm},
-                                            {"glass", to_json(b.glass)}}}};
-                          },
-                          [](const GlassShell &s) {
-                              return Json{{"shell",
-                                           {{"centre_mm", to_json(s.centre_mm)},
-                                            {"outer_radius_mm", s.outer_radius_mm},
-                                            {"wall_mm", s.wall_mm},
-                                            {"glass", to_json(s.glass)}}}};
-                          },
-                          [](const Quad &q) {
-                              return Json{{"rectangle",
-                                           {{"centre_mm", to_json(q.centre_mm)},
-                                            {"half_u_mm", to_json(q.half_u_mm)},
-                                            {"half_v_mm", to_json(q.half_v_mm)},
-                                            {"surface", to_json(q.surface)}}}};
-                          },
-                          [](const Mesh &m) { return Json{{"mesh", to_json(m)}}; },
-                      },
-                      shape);
+    return std::visit(
+        overloaded{
+            [](const GlassBall &b) {
+                return Json{
+                    {"ball",
+                     {{"centre_mm", to_json(b.centre_mm)}, {"radius_mm", b.radius_mm}, {"glass", to_json(b.glass)}}}};
+            },
+            [](const GlassShell &s) {
+                return Json{{"shell",
+                             {{"centre_mm", to_json(s.centre_mm)},
+                              {"outer_radius_mm", s.outer_radius_mm},
+                              {"wall_mm", s.wall_mm},
+                              {"glass", to_json(s.glass)}}}};
+            },
+            [](const Quad &q) {
+                return Json{{"rectangle",
+                             {{"centre_mm", to_json(q.centre_mm)},
+                              {"half_u_mm", to_json(q.half_u_mm)},
+                              {"half_v_mm", to_json(q.half_v_mm)},
+                              {"surface", to_json(q.surface)}}}};
+            },
+            [](const Mesh &m) {
+                return Json{{"mesh", to_json(m)}};
+            },
+        },
+        shape);
 }
 
 Json to_json(const GlassShadow &shadow) {
     switch (shadow.rule) {
-    case GlassShadow::Rule::none: return "none";
-    case GlassShadow::Rule::opaque: return "opaque";
-    case GlassShadow::Rule::constant: return {{"constant", shadow.transmittance}};
-    case GlassShadow::Rule::caustic: return "caustic";
+    case GlassShadow::Rule::none:
+        return "none";
+    case GlassShadow::Rule::opaque:
+        return "opaque";
+    case GlassShadow::Rule::constant:
+        return {{"constant", shadow.transmittance}};
+    case GlassShadow::Rule::caustic:
+        return "caustic";
     }
     return nullptr;
 }
@@ -91,8 +101,12 @@ Json to_json(const GlassShadow &shadow) {
 Json to_json(const Camera &camera) {
     Json json{{"eye_mm", to_json(camera.eye_mm)}, {"target_mm", to_json(camera.target_mm)}, {"up", to_json(camera.up)}};
     switch (camera.projection) {
-    case Projection::perspective: json["horizontal_fov_deg"] = camera.horizontal_fov_deg; break;
-    case Projection::orthographic: json["orthographic_width_mm"] = camera.orthographic_width_mm; break;
+    case Projection::perspective:
+        json["horizontal_fov_deg"] = camera.horizontal_fov_deg;
+        break;
+    case Projection::orthographic:
+        json["orthographic_width_mm"] = camera.orthographic_width_mm;
+        break;
     }
     json["width_px"] = camera.width_px;
     json["height_px"] = camera.height_px;
@@ -107,7 +121,8 @@ Json to_json(const Camera &camera) {
 Json to_json(const Scene &scene) {
     Json json{{"name", scene.name}};
     json["objects"] = Json::array();
-    for (const Object &object : scene.objects) json["objects"].push_back({{"name", object.name}, {"shape", to_json(object.shape)}});
+    for (const Object &object : scene.objects)
+        json["objects"].push_back({{"name", object.name}, {"shape", to_json(object.shape)}});
     json["lights"] = Json::array();
     for (const Directional &light : scene.lights)
         json["lights"].push_back({{"travel", to_json(light.travel)}, {"irradiance", to_json(light.irradiance)}});

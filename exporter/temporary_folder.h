@@ -7,7 +7,7 @@
 namespace threefold {
 
 class TemporaryFolder {
-  public:
+public:
     TemporaryFolder(); ///< throws Error(input_output)
     ~TemporaryFolder();
     TemporaryFolder(const TemporaryFolder &) = delete;
@@ -15,7 +15,7 @@ class TemporaryFolder {
 
     const std::filesystem::path &path() const { return path_; }
 
-  private:
+private:
     std::filesystem::path path_;
 };
 

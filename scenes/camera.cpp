@@ -16,8 +16,10 @@ CameraFrame camera_frame(const Camera &camera) {
 
 double film_half_width(const Camera &camera) {
     switch (camera.projection) {
-    case Projection::perspective: return std::tan(camera.horizontal_fov_deg * std::numbers::pi / 360);
-    case Projection::orthographic: return camera.orthographic_width_mm / 2;
+    case Projection::perspective:
+        return std::tan(camera.horizontal_fov_deg * std::numbers::pi / 360);
+    case Projection::orthographic:
+        return camera.orthographic_width_mm / 2;
     }
     return 0;
 }
@@ -30,8 +32,10 @@ Ray camera_ray(const Camera &camera, Vec2 image_px) {
     const double x = (film.x - camera.width_px / 2.0) * pixel;
     const double y = (camera.height_px / 2.0 - film.y) * pixel;
     switch (camera.projection) {
-    case Projection::perspective: return {camera.eye_mm, glm::normalize(forward + x * right + y * up)};
-    case Projection::orthographic: return {camera.eye_mm + x * right + y * up, forward};
+    case Projection::perspective:
+        return {camera.eye_mm, glm::normalize(forward + x * right + y * up)};
+    case Projection::orthographic:
+        return {camera.eye_mm + x * right + y * up, forward};
     }
     return {};
 }

@@ -23,14 +23,14 @@ enum class Exit : int {
 
 /// `what()` is one line that says what is wrong and where; `hint` says what to try (may be empty).
 class Error : public std::runtime_error {
-  public:
+public:
     Error(Exit code, const std::string &what, std::string hint = {})
         : std::runtime_error(what), code_(code), hint_(std::move(hint)) {}
 
     Exit code() const noexcept { return code_; }
     const std::string &hint() const noexcept { return hint_; }
 
-  private:
+private:
     Exit code_;
     std::string hint_;
 };

@@ -36,7 +36,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 std::string unknown_name(std::string_view kind, std::string_view name, const std::vector<std::string> &valid) {
     const auto nearest = std::ranges::min_element(
         valid, {}, [name](const std::string &candidate) { return edit_distance(name, candidate); });
-    const bool close = nearest != valid.end() && edit_distance(name, *nearest) <= std::max<std::size_t>(3, name.size() / 2);
+    const bool close =
+        nearest != valid.end() && edit_distance(name, *nearest) <= std::max<std::size_t>(3, name.size() / 2);
     return fmt::format("unknown {} '{}'{}; valid: {}", kind, name,
                        close ? fmt::format(" (did you mean '{}'?)", *nearest) : "", fmt::join(valid, ", "));
 }
@@ -49,8 +50,10 @@ Preset parse_preset(std::string_view name) {
 
 std::string_view to_string(Preset preset) {
     switch (preset) {
-    case Preset::text: return "text";
-    case Preset::published: return "published";
+    case Preset::text:
+        return "text";
+    case Preset::published:
+        return "published";
     }
     return "";
 }
@@ -80,7 +83,8 @@ void Parameters::set(std::string_view name, double value) {
     const ParameterSpec &s = spec(name);
     if (!s.choices.empty())
         throw Error(Exit::bad_data, fmt::format("{} takes a word: {}", name, fmt::join(s.choices, ", ")));
-    if (!std::isfinite(value)) throw Error(Exit::bad_data, fmt::format("{} must be a finite number, not {}", name, value));
+    if (!std::isfinite(value))
+        throw Error(Exit::bad_data, fmt::format("{} must be a finite number, not {}", name, value));
     if (value < s.least || value > s.greatest)
         throw Error(Exit::bad_data,
                     fmt::format("{} = {} is out of range: it must lie in [{}, {}]", name, value, s.least, s.greatest));

@@ -26,12 +26,12 @@ struct ParameterSpec {
     double text = 0, published = 0; ///< value under each preset (numbers)
     double least = -std::numeric_limits<double>::infinity();
     double greatest = std::numeric_limits<double>::infinity();
-    bool whole = false;               ///< only whole numbers
+    bool whole = false;                 ///< only whole numbers
     std::vector<std::string> choices{}; ///< words; the first is the default
 };
 
 class Parameters {
-  public:
+public:
     Parameters(std::vector<ParameterSpec> specs, Preset preset);
 
     /// Throws Error(usage) for an unknown name (with the nearest), Error(bad_data) for a value that is no number, not
@@ -48,7 +48,7 @@ class Parameters {
     const std::vector<ParameterSpec> &specs() const { return specs_; }
     Preset preset() const { return preset_; }
 
-  private:
+private:
     const ParameterSpec &spec(std::string_view name) const;
 
     std::vector<ParameterSpec> specs_;

@@ -24,8 +24,8 @@ using Rgb = glm::dvec3;
 // Glass
 
 /// How an interface splits light. `fresnel`: unpolarised Fresnel reflectance, as renderers do it.
-/// `antireflective`: the ideal coating, all light is transmitted below the critical angle and all is reflected above it;
-/// one ray stays one ray, so that a probe sees the refracted path alone.
+/// `antireflective`: the ideal coating, all light is transmitted below the critical angle and all is reflected above
+/// it; one ray stays one ray, so that a probe sees the refracted path alone.
 enum class Coating { fresnel, antireflective };
 
 struct Glass {
@@ -141,8 +141,8 @@ struct Camera {
     Vec3 eye_mm{0, 0, 900};
     Vec3 target_mm{0};
     Vec3 up{0, 1, 0};
-    double horizontal_fov_deg = 10;     ///< perspective: full angle over the film's width, 0 to 180 exclusive
-    double orthographic_width_mm = 150; ///< orthographic: what the film's width covers
+    double horizontal_fov_deg = 10;      ///< perspective: full angle over the film's width, 0 to 180 exclusive
+    double orthographic_width_mm = 150;  ///< orthographic: what the film's width covers
     int width_px = 256, height_px = 256; ///< the full film; pixels are square
     std::optional<Crop> crop;
     /// Where in a pixel its ray goes, measured from the pixel's centre. Renderers that take one sample per pixel are
@@ -162,8 +162,8 @@ struct Scene {
     Camera camera;
 };
 
-/// Helper for std::visit: `std::visit(overloaded{[](const GlassBall &) {...}, ...}, shape)`. Never write a generic lambda
-/// in it: the compiler then names every place that forgot a new shape.
+/// Helper for std::visit: `std::visit(overloaded{[](const GlassBall &) {...}, ...}, shape)`. Never write a generic
+/// lambda in it: the compiler then names every place that forgot a new shape.
 template <class... Ts>
 struct overloaded : Ts... {
     using Ts::operator()...;

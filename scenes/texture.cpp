@@ -11,8 +11,9 @@ Rgb sample(const Texture &texture, Vec2 uv) {
     const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
     const int x1 = std::min(x0 + 1, texture.width - 1), y1 = std::min(y0 + 1, texture.height - 1);
     const auto texel = [&](int column, int row) {
-        const std::size_t i =
-            (static_cast<std::size_t>(row) * static_cast<std::size_t>(texture.width) + static_cast<std::size_t>(column)) * 3;
+        const std::size_t i = (static_cast<std::size_t>(row) * static_cast<std::size_t>(texture.width) +
+                               static_cast<std::size_t>(column)) *
+                              3;
         return Rgb(texture.rgb[i], texture.rgb[i + 1], texture.rgb[i + 2]);
     };
     const double fx = x - x0, fy = y - y0;

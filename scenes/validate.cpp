@@ -72,8 +72,12 @@ struct Sphere {
 std::optional<Sphere> outer_sphere(const Shape &shape) {
     using Result = std::optional<Sphere>;
     return std::visit(overloaded{
-                          [](const GlassBall &b) { return Result({b.centre_mm, b.radius_mm}); },
-                          [](const GlassShell &s) { return Result({s.centre_mm, s.outer_radius_mm}); },
+                          [](const GlassBall &b) {
+                              return Result({b.centre_mm, b.radius_mm});
+                          },
+                          [](const GlassShell &s) {
+                              return Result({s.centre_mm, s.outer_radius_mm});
+                          },
                           [](const Quad &) { return Result(); },
                           [](const Mesh &) { return Result(); },
                       },
@@ -142,7 +146,8 @@ void require_glass_apart(const Scene &scene) {
         if (glm::length(scene.camera.eye_mm - orb->centre_mm) <= orb->radius_mm)
             refuse("the eye lies inside the glass orb or on it: it must stand outside");
         for (std::size_t j = 0; j < scene.objects.size(); ++j) {
-            if (const auto other = outer_sphere(scene.objects[j].shape); other && j > i &&
+            if (const auto other = outer_sphere(scene.objects[j].shape);
+                other && j > i &&
                 glm::length(other->centre_mm - orb->centre_mm) < (other->radius_mm + orb->radius_mm) * touching)
                 refuse("two glass orbs overlap: they may touch, not more");
             if (const Quad *quad = std::get_if<Quad>(&scene.objects[j].shape);
@@ -162,8 +167,8 @@ void validate(const Camera &camera) {
         const Crop &c = *camera.crop;
         if (c.width_px <= 0 || c.height_px <= 0 || c.x_px < 0 || c.y_px < 0 || c.x_px > camera.width_px - c.width_px ||
             c.y_px > camera.height_px - c.height_px)
-            refuse(fmt::format("the crop {}x{}+{}+{} does not lie inside the film of {} x {} px", c.width_px, c.height_px,
-                               c.x_px, c.y_px, camera.width_px, camera.height_px));
+            refuse(fmt::format("the crop {}x{}+{}+{} does not lie inside the film of {} x {} px", c.width_px,
+                               c.height_px, c.x_px, c.y_px, camera.width_px, camera.height_px));
     }
     const Vec3 view = camera.target_mm - camera.eye_mm;
     if (!(glm::length(view) > 0)) refuse("the eye and the camera's target coincide");
@@ -184,13 +189,14 @@ void validate(const Camera &camera) {
 }
 
 double greatest_radiance(const Paint &paint) {
-    return std::visit(overloaded{
-                          [](const Rgb &c) { return std::max({c.r, c.g, c.b}); },
-                          [](const std::shared_ptr<const Texture> &t) {
-                              return *std::ranges::max_element(t->rgb) / 65535.0;
-                          },
-                      },
-                      paint);
+    return std::visit(
+        overloaded{
+            [](const Rgb &c) {
+                return std::max({c.r, c.g, c.b});
+            },
+            [](const std::shared_ptr<const Texture> &t) { return *std::ranges::max_element(t->rgb) / 65535.0; },
+        },
+        paint);
 }
 
 const Surface *surface_of(const Shape &shape) {
@@ -233,16 +239,16 @@ Needs needs(const Scene &scene) {
         }
         if (const Surface *surface = surface_of(object.shape))
             n.greatest_radiance = std::max(
-                n.greatest_radiance, std::visit(overloaded{
-                                                    [&](const Diffuse &d) {
-                                                        diffuse = true;
-                                                        return greatest_radiance(d.reflectance) *
-                                                               std::max({direct.r, direct.g, direct.b});
-                                                    },
-                                                    [](const Emissive &e) { return greatest_radiance(e.radiance); },
-                                                    [](const CoordinateCard &) { return 1.0; },
-                                                },
-                                                *surface));
+                n.greatest_radiance,
+                std::visit(overloaded{
+                               [&](const Diffuse &d) {
+                                   diffuse = true;
+                                   return greatest_radiance(d.reflectance) * std::max({direct.r, direct.g, direct.b});
+                               },
+                               [](const Emissive &e) { return greatest_radiance(e.radiance); },
+                               [](const CoordinateCard &) { return 1.0; },
+                           },
+                           *surface));
     }
     if (scene.environment) {
         const Rgb &e = scene.environment->radiance;
@@ -264,7 +270,8 @@ void validate(const Scene &scene) {
     }
     if (scene.environment) require_colour(scene.environment->radiance, "the environment's radiance");
     if (!(scene.glass_shadow.transmittance >= 0 && scene.glass_shadow.transmittance <= 1))
-        refuse(fmt::format("the glass shadow's transmittance must lie in [0, 1], not {}", scene.glass_shadow.transmittance));
+        refuse(fmt::format("the glass shadow's transmittance must lie in [0, 1], not {}",
+                           scene.glass_shadow.transmittance));
     validate(scene.camera);
     require_glass_apart(scene);
     if (!(needs(scene).greatest_radiance > 0))

@@ -143,9 +143,12 @@ TEST(Tiles, AreUndecidedInTooMuchNoiseAndSayWhatWouldDecide) {
 }
 
 TEST(Tiles, OfSinglePicturesUseTheScatterOfThePixels) {
-    EXPECT_EQ(compare_tiles_of_single_pictures(noisy(1, 0.005)[0], noisy(2, 0.005)[0], 8, 0.01).verdict, Verdict::holds);
-    EXPECT_EQ(compare_tiles_of_single_pictures(noisy(1, 0.005)[0], noisy(2, 0.005, 0.05)[0], 8, 0.01).verdict, Verdict::fails);
-    EXPECT_EQ(compare_tiles_of_single_pictures(noisy(1, 0.3)[0], noisy(2, 0.3)[0], 8, 0.01).verdict, Verdict::undecided);
+    EXPECT_EQ(compare_tiles_of_single_pictures(noisy(1, 0.005)[0], noisy(2, 0.005)[0], 8, 0.01).verdict,
+              Verdict::holds);
+    EXPECT_EQ(compare_tiles_of_single_pictures(noisy(1, 0.005)[0], noisy(2, 0.005, 0.05)[0], 8, 0.01).verdict,
+              Verdict::fails);
+    EXPECT_EQ(compare_tiles_of_single_pictures(noisy(1, 0.3)[0], noisy(2, 0.3)[0], 8, 0.01).verdict,
+              Verdict::undecided);
 }
 
 } // namespace

@@ -62,6 +62,14 @@ TEST(Check, HoldsInAllThreeRenderers) {
     }
 }
 
+struct Settings {
+    std::vector<Assignment> assignments;
+};
+
+void PrintTo(const Settings &settings, std::ostream *out) {
+    for (const Assignment &a : settings.assignments) *out << a.name << '=' << a.value << ' ';
+}
+
 struct Mutant {
     std::string renderer;
     Fault fault;
@@ -102,7 +110,7 @@ INSTANTIATE_TEST_SUITE_P(Faults, Mutants, testing::ValuesIn(mutants()), [](const
     return name;
 });
 
-class OpticalMap : public testing::TestWithParam<std::vector<Assignment>> {};
+class OpticalMap : public testing::TestWithParam<Settings> {};
 
 TEST_P(OpticalMap, LandsWhereExactOpticsSaysInEveryRenderer) {
     CheckRequest r = request({"solid-vs-hollow"});
@@ -112,23 +120,35 @@ TEST_P(OpticalMap, LandsWhereExactOpticsSaysInEveryRenderer) {
         std::erase_if(maps, [](const Experiment &e) { return !e.name.ends_with("-map"); });
         return maps;
     };
-    r.assignments = GetParam();
+    r.assignments = GetParam().assignments;
     const RunResult result = check(r).result;
     int rows = 0;
     for (const Row &row : result.claims.front().rows)
         if (row.quantity == "landing error, 95th percentile") {
-            EXPECT_LT(row.interval.high, row.witness == "tracer" ? 1e-11 : 2e-4) << row.experiment << ' ' << row.witness;
+            EXPECT_LT(row.interval.high, row.witness == "tracer" ? 1e-11 : 2e-4)
+                << row.experiment << ' ' << row.witness;
             ++rows;
         }
     EXPECT_EQ(rows, 6);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Sweep, OpticalMap,
-    testing::Values(std::vector<Assignment>{{"orb.wall_mm", "0.68"}, {"glass.index", "1.05"}, {"eye.distance_mm", "500"}, {"card.distance_mm", "100"}},
-                    std::vector<Assignment>{{"orb.wall_mm", "1.36"}, {"glass.index", "2.4"}, {"eye.distance_mm", "500"}, {"card.distance_mm", "400"}},
-                    std::vector<Assignment>{{"orb.wall_mm", "2.72"}, {"glass.index", "1.8"}, {"eye.distance_mm", "2000"}, {"card.distance_mm", "100"}},
-                    std::vector<Assignment>{{"orb.wall_mm", "2.72"}, {"glass.index", "2.4"}, {"eye.distance_mm", "2000"}, {"card.distance_mm", "400"}}));
+INSTANTIATE_TEST_SUITE_P(Sweep, OpticalMap,
+                         testing::Values(Settings{{{"orb.wall_mm", "0.68"},
+                                                   {"glass.index", "1.05"},
+                                                   {"eye.distance_mm", "500"},
+                                                   {"card.distance_mm", "100"}}},
+                                         Settings{{{"orb.wall_mm", "1.36"},
+                                                   {"glass.index", "2.4"},
+                                                   {"eye.distance_mm", "500"},
+                                                   {"card.distance_mm", "400"}}},
+                                         Settings{{{"orb.wall_mm", "2.72"},
+                                                   {"glass.index", "1.8"},
+                                                   {"eye.distance_mm", "2000"},
+                                                   {"card.distance_mm", "100"}}},
+                                         Settings{{{"orb.wall_mm", "2.72"},
+                                                   {"glass.index", "2.4"},
+                                                   {"eye.distance_mm", "2000"},
+                                                   {"card.distance_mm", "400"}}}));
 
 // ---------------------------------------------------------------------------------------------------------------------
 // Kill it at any moment
@@ -156,7 +176,8 @@ int processes_in(const fs::path &folder) {
 }
 
 void expect_no_orphans(const fs::path &folder) {
-    for (int tenths = 0; tenths < 50 && processes_in(folder) > 0; ++tenths) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    for (int tenths = 0; tenths < 50 && processes_in(folder) > 0; ++tenths)
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
     EXPECT_EQ(processes_in(folder), 0);
 }
 
@@ -197,7 +218,8 @@ TEST(Killed, AtAnyMomentGoesOnWhereItStoppedAndFindsTheSame) {
 TEST(Interrupted, StopsTheRendererAndSaysSoByItsExitCode) {
     const TemporaryFolder folder;
     const pid_t pid = start_check(folder.path());
-    for (int tenths = 0; tenths < 100 && processes_in(folder.path()) == 0; ++tenths) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    for (int tenths = 0; tenths < 100 && processes_in(folder.path()) == 0; ++tenths)
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
     ASSERT_GT(processes_in(folder.path()), 0) << "no renderer was started";
     kill(pid, SIGINT);
     EXPECT_EQ(WEXITSTATUS(wait_for(pid)), 130);

@@ -94,11 +94,13 @@ TEST(Check, AnIndexUnderTheCriticalOneMakesTheConclusionFailAndSaysWhy) {
     const CheckOutcome outcome = check(r);
     EXPECT_EQ(outcome.exit, Exit::fails);
     bool flip_named = false;
-    for (const std::string &note : outcome.result.claims.front().notes) flip_named |= note.find("1.2103") != std::string::npos;
+    for (const std::string &note : outcome.result.claims.front().notes)
+        flip_named |= note.find("1.2103") != std::string::npos;
     EXPECT_TRUE(flip_named);
     for (const Row &row : outcome.result.claims.front().rows)
         if (row.relation == Relation::equal) {
-            EXPECT_EQ(row.verdict, Verdict::holds) << "the renderer still agrees with the closed form: " << row.quantity;
+            EXPECT_EQ(row.verdict, Verdict::holds)
+                << "the renderer still agrees with the closed form: " << row.quantity;
         }
 }
 

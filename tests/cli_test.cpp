@@ -29,8 +29,9 @@ struct Answer {
 /// Runs the program through a shell, so that redirections and PATH can be part of a case.
 Answer run(const tests::TemporaryFolder &folder, const std::string &arguments, const std::string &environment = "") {
     const fs::path out = folder / "out.txt", err = folder / "err.txt";
-    const std::string command = "cd '" + fs::path(folder / ".").string() + "' && " + environment + " '" THREEFOLD_PROGRAM "' " +
-                                arguments + " > '" + out.string() + "' 2> '" + err.string() + "' < /dev/null";
+    const std::string command = "cd '" + fs::path(folder / ".").string() + "' && " + environment +
+                                " '" THREEFOLD_PROGRAM "' " + arguments + " > '" + out.string() + "' 2> '" +
+                                err.string() + "' < /dev/null";
     const int status = std::system(command.c_str());
     Answer answer{WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(out), read_file(err)};
     fs::remove(out);
@@ -51,6 +52,8 @@ struct BadInput {
     std::string saying;
 };
 
+void PrintTo(const BadInput &bad, std::ostream *out) { *out << bad.arguments; }
+
 class Refuses : public testing::TestWithParam<BadInput> {};
 
 TEST_P(Refuses, BadInputInOneLineWithItsExitCodeAndWritesNothing) {
@@ -61,24 +64,34 @@ TEST_P(Refuses, BadInputInOneLineWithItsExitCodeAndWritesNothing) {
 
 INSTANTIATE_TEST_SUITE_P(
     Cli, Refuses,
-    testing::Values(BadInput{"render holow", 64, "did you mean 'hollow'"}, BadInput{"show nothing-like-it", 64, "calibration"},
-                    BadInput{"check solid-vs-holow", 64, "did you mean 'solid-vs-hollow'"},
-                    BadInput{"render hollow --set orb.wal_mm=1", 64, "did you mean 'orb.wall_mm'"},
-                    BadInput{"check --with tracer --set orb.wal_mm=1 rim-reads-wall -o .", 64, "did you mean 'orb.wall_mm'"},
-                    BadInput{"render hollow --set orb.radius_mm=nan", 65, "finite"}, BadInput{"render hollow --set orb.radius_mm=-1", 65, "out of range"},
-                    BadInput{"render hollow --set orb.radius_mm=0", 65, "out of range"}, BadInput{"render hollow --set orb.wall_mm=68", 65, "thinner"},
-                    BadInput{"render hollow --set orb.wall_mm=100", 65, "thinner"}, BadInput{"render hollow --set glass.index=0.99", 65, "out of range"},
-                    BadInput{"render hollow --set eye.distance_mm=60", 65, "eye"}, BadInput{"render hollow --set eye.distance_mm=67.5", 65, "eye"},
-                    BadInput{"render hollow --set card.distance_mm=60", 65, "cuts"}, BadInput{"render hollow --size 0x0", 65, "out of range"},
-                    BadInput{"render hollow --size 100000x100000", 65, "GB"}, BadInput{"render hollow --size 12", 64, "WIDTHxHEIGHT"},
-                    BadInput{"render hollow --set nonsense", 64, "name=value"}, BadInput{"render hollow --preset old", 64, "published"},
-                    BadInput{"render hollow --with mitsuba", 64, "valid: tracer, povray, cycles"}, BadInput{"render hollow --spp 0", 65, "--spp"},
-                    BadInput{"render hollow -o a.jpg", 64, ".exr"}, BadInput{"render hollow --precision half", 64, "double"},
-                    BadInput{"check --with mitsuba", 64, "renderer"}, BadInput{"check --inject povray", 64, "RENDERER:FAULT"},
-                    BadInput{"check --inject povray:index+2%", 64, "did you mean 'index+1%'"}, BadInput{"export hollow --to pov -o x", 64, "povray"},
-                    BadInput{"compare a.exr b.exr", 74, "a.exr"}, BadInput{"frobnicate", 64, "frobnicate"}, BadInput{"", 64, "subcommand"},
-                    BadInput{"optics --index 0.5", 65, "index"}, BadInput{"optics --impact-mm nan", 65, "impact"},
-                    BadInput{"optics --rows missing.json", 74, "missing.json"}));
+    testing::Values(
+        BadInput{"render holow", 64, "did you mean 'hollow'"}, BadInput{"show nothing-like-it", 64, "calibration"},
+        BadInput{"check solid-vs-holow", 64, "did you mean 'solid-vs-hollow'"},
+        BadInput{"render hollow --set orb.wal_mm=1", 64, "did you mean 'orb.wall_mm'"},
+        BadInput{"check --with tracer --set orb.wal_mm=1 rim-reads-wall -o .", 64, "did you mean 'orb.wall_mm'"},
+        BadInput{"render hollow --set orb.radius_mm=nan", 65, "finite"},
+        BadInput{"render hollow --set orb.radius_mm=-1", 65, "out of range"},
+        BadInput{"render hollow --set orb.radius_mm=0", 65, "out of range"},
+        BadInput{"render hollow --set orb.wall_mm=68", 65, "thinner"},
+        BadInput{"render hollow --set orb.wall_mm=100", 65, "thinner"},
+        BadInput{"render hollow --set glass.index=0.99", 65, "out of range"},
+        BadInput{"render hollow --set eye.distance_mm=60", 65, "eye"},
+        BadInput{"render hollow --set eye.distance_mm=67.5", 65, "eye"},
+        BadInput{"render hollow --set card.distance_mm=60", 65, "cuts"},
+        BadInput{"render hollow --size 0x0", 65, "out of range"},
+        BadInput{"render hollow --size 100000x100000", 65, "GB"},
+        BadInput{"render hollow --size 12", 64, "WIDTHxHEIGHT"},
+        BadInput{"render hollow --set nonsense", 64, "name=value"},
+        BadInput{"render hollow --preset old", 64, "published"},
+        BadInput{"render hollow --with mitsuba", 64, "valid: tracer, povray, cycles"},
+        BadInput{"render hollow --spp 0", 65, "--spp"}, BadInput{"render hollow -o a.jpg", 64, ".exr"},
+        BadInput{"render hollow --precision half", 64, "double"}, BadInput{"check --with mitsuba", 64, "renderer"},
+        BadInput{"check --inject povray", 64, "RENDERER:FAULT"},
+        BadInput{"check --inject povray:index+2%", 64, "did you mean 'index+1%'"},
+        BadInput{"export hollow --to pov -o x", 64, "povray"}, BadInput{"compare a.exr b.exr", 74, "a.exr"},
+        BadInput{"frobnicate", 64, "frobnicate"}, BadInput{"", 64, "subcommand"},
+        BadInput{"optics --index 0.5", 65, "index"}, BadInput{"optics --impact-mm nan", 65, "impact"},
+        BadInput{"optics --rows missing.json", 74, "missing.json"}));
 
 TEST(Cli, HelpTeachesAndSucceeds) {
     const tests::TemporaryFolder folder;
@@ -130,7 +143,8 @@ TEST(Cli, WithoutTheOthersACheckIsUndecidedSaysWhichAreMissingAndTheTracerStillA
     EXPECT_THAT(json.at("summary").get<std::string>(), HasSubstr("Cycles is not installed"));
     bool tracer_answers = false;
     for (const auto &claim : json.at("claims"))
-        for (const auto &row : claim.at("rows")) tracer_answers |= row.at("witness") == "tracer" && row.at("verdict") == "holds";
+        for (const auto &row : claim.at("rows"))
+            tracer_answers |= row.at("witness") == "tracer" && row.at("verdict") == "holds";
     EXPECT_TRUE(tracer_answers);
 }
 
@@ -140,12 +154,14 @@ TEST(Cli, CheckWritesReportJsonAndJunit) {
     EXPECT_EQ(answer.exit_code, 0) << answer.err << answer.out;
     EXPECT_THAT(answer.out, HasSubstr("report: "));
     EXPECT_THAT(answer.out, Not(HasSubstr("\033")));
-    for (const char *file : {"report/report.html", "report/result.json", "j.xml", "r.json"}) EXPECT_TRUE(fs::exists(folder / file)) << file;
+    for (const char *file : {"report/report.html", "report/result.json", "j.xml", "r.json"})
+        EXPECT_TRUE(fs::exists(folder / file)) << file;
 }
 
 TEST(Cli, AFaultIsAnsweredByFailsAndExit1) {
     const tests::TemporaryFolder folder;
-    const Answer answer = run(folder, "check --quick --with tracer rim-reads-wall --inject tracer:wall-doubled -o report");
+    const Answer answer =
+        run(folder, "check --quick --with tracer rim-reads-wall --inject tracer:wall-doubled -o report");
     EXPECT_EQ(answer.exit_code, 1);
     EXPECT_THAT(answer.out, HasSubstr("racer"));
 }
@@ -197,7 +213,9 @@ TEST(Cli, AFullDiskIsExit74AndLeavesNothingUnderAFinalName) {
 /// A stand-in for a renderer that is broken in one way; it takes part in no claim of agreement.
 void put_broken_povray(const tests::TemporaryFolder &folder, const std::string &behaviour) {
     fs::create_directory(folder / "bin");
-    std::ofstream(folder / "bin/povray") << "#!/bin/sh\ncase \"$*\" in *ersion*) echo 'POV-Ray 3.7.0.10'; exit 0;; esac\n" << behaviour << "\n";
+    std::ofstream(folder / "bin/povray")
+        << "#!/bin/sh\ncase \"$*\" in *ersion*) echo 'POV-Ray 3.7.0.10'; exit 0;; esac\n"
+        << behaviour << "\n";
     fs::permissions(folder / "bin/povray", fs::perms::owner_all);
 }
 
@@ -205,12 +223,15 @@ TEST(Cli, ARendererThatCrashesOrWritesNothingHasNoVoteAndTheOthersGoOn) {
     for (const char *behaviour : {"kill -SEGV $$", "exit 1", "exit 0", "head -c 40 /dev/zero > picture1.png"}) {
         const tests::TemporaryFolder folder;
         put_broken_povray(folder, behaviour);
-        const Answer answer = run(folder, "check --quick --with tracer,povray rim-reads-wall -o report --json -", "PATH=$PWD/bin:/bin:/usr/bin");
+        const Answer answer = run(folder, "check --quick --with tracer,povray rim-reads-wall -o report --json -",
+                                  "PATH=$PWD/bin:/bin:/usr/bin");
         EXPECT_EQ(answer.exit_code, 2) << behaviour << answer.err;
         const auto json = nlohmann::json::parse(answer.out);
         EXPECT_THAT(json.at("summary").get<std::string>(), HasSubstr("POV-Ray gave no picture")) << behaviour;
         EXPECT_TRUE(fs::exists(folder / "report/report.html"));
-        EXPECT_EQ(run(folder, "render hollow --size 16x16 --with povray -q -o a.exr", "PATH=$PWD/bin:/bin:/usr/bin").exit_code, 74);
+        EXPECT_EQ(run(folder, "render hollow --size 16x16 --with povray -q -o a.exr", "PATH=$PWD/bin:/bin:/usr/bin")
+                      .exit_code,
+                  74);
         EXPECT_FALSE(fs::exists(folder / "a.exr"));
     }
 }
@@ -218,10 +239,13 @@ TEST(Cli, ARendererThatCrashesOrWritesNothingHasNoVoteAndTheOthersGoOn) {
 TEST(Cli, ARendererThatHangsIsStoppedAndExit124) {
     const tests::TemporaryFolder folder;
     put_broken_povray(folder, "sleep 1000");
-    const Answer answer = run(folder, "check --quick --timeout 1 --with tracer,povray rim-reads-wall -o report", "PATH=$PWD/bin:/bin:/usr/bin");
+    const Answer answer = run(folder, "check --quick --timeout 1 --with tracer,povray rim-reads-wall -o report",
+                              "PATH=$PWD/bin:/bin:/usr/bin");
     EXPECT_EQ(answer.exit_code, 124) << answer.err;
     EXPECT_THAT(answer.out, HasSubstr("out of time"));
-    EXPECT_EQ(run(folder, "render hollow --size 16x16 --with povray --timeout 1 -q", "PATH=$PWD/bin:/bin:/usr/bin").exit_code, 124);
+    EXPECT_EQ(
+        run(folder, "render hollow --size 16x16 --with povray --timeout 1 -q", "PATH=$PWD/bin:/bin:/usr/bin").exit_code,
+        124);
 }
 
 TEST(Cli, ExportsAreCompleteFoldersAndPrintTheirCommand) {

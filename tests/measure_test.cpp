@@ -48,7 +48,9 @@ TEST(Quantile, IsByRank) {
 TEST(RingMeans, LeaveOutPixelsWithoutARingAndRingsWithoutAPixel) {
     Image image(2, 2, Rgb(1));
     image.at(1, 1) = Rgb(4);
-    const auto means = ring_means(image, 3, [](int column, int row) { return column == 0 && row == 0 ? -1 : column + row > 1 ? 2 : 0; });
+    const auto means = ring_means(image, 3, [](int column, int row) {
+        return column == 0 && row == 0 ? -1 : column + row > 1 ? 2 : 0;
+    });
     EXPECT_EQ(means[0], 1);
     EXPECT_TRUE(std::isnan(means[1]));
     EXPECT_EQ(means[2], 4);
@@ -72,7 +74,8 @@ TEST(PlateauBorders, AreExactForAnyBlurredBorder) {
                 const auto overlap = [&](double from, double to) {
                     return std::max(0.0, std::min(column + 1.0, to) - std::max<double>(column, from));
                 };
-                image.at(column, 0) = Rgb(overlap(0, left) * plateaus.left + overlap(left, right) * plateaus.middle + overlap(right, 16) * plateaus.right);
+                image.at(column, 0) = Rgb(overlap(0, left) * plateaus.left + overlap(left, right) * plateaus.middle +
+                                          overlap(right, 16) * plateaus.right);
             }
             const Borders b = plateau_borders(image, 0, 7, plateaus);
             EXPECT_NEAR(b.left_px, left, 1e-12);

@@ -109,7 +109,10 @@ TEST(Validate, RefusesAnEyeInTheGlassAndBodiesThatOverlap) {
     EXPECT_THAT(refused([](Scene &s) { s.camera.eye_mm = {0, 0, 67.5}; }), HasSubstr("eye"));
     EXPECT_THAT(refused([](Scene &s) { s.camera.eye_mm = {0, 0, 10}; }), HasSubstr("eye"));
     EXPECT_THAT(refused([](Scene &s) { card(s).centre_mm = {0, 0, -60}; }), HasSubstr("cuts"));
-    EXPECT_THAT(refused([](Scene &s) { s.objects.push_back({"twin", GlassBall{{100, 0, 0}, 68, {}}}); }), HasSubstr("overlap"));
+    EXPECT_THAT(refused([](Scene &s) {
+                    s.objects.push_back({"twin", GlassBall{{100, 0, 0}, 68, {}}});
+                }),
+                HasSubstr("overlap"));
     Scene touching = good();
     card(touching).centre_mm = {0, 0, -68};
     EXPECT_NO_THROW(validate(touching));
@@ -128,9 +131,13 @@ TEST(Validate, RefusesSurfacesWithoutMeaningAndTheDark) {
     EXPECT_THAT(refused([](Scene &s) { card(s).half_u_mm = {0, 0, 0}; }), HasSubstr("half width"));
     EXPECT_THAT(refused([](Scene &s) { card(s).half_v_mm = {1, 1, 0}; }), HasSubstr("perpendicular"));
     EXPECT_THAT(refused([](Scene &s) { card(s).surface = Emissive{Rgb(-1)}; }), HasSubstr("negative"));
-    EXPECT_THAT(refused([](Scene &s) { card(s).surface = Emissive{std::make_shared<const Texture>()}; }), HasSubstr("image"));
+    EXPECT_THAT(refused([](Scene &s) { card(s).surface = Emissive{std::make_shared<const Texture>()}; }),
+                HasSubstr("image"));
     EXPECT_THAT(refused([](Scene &s) { s.objects.push_back({"m", Mesh{}}); }), HasSubstr("empty"));
-    EXPECT_THAT(refused([](Scene &s) { s.objects.push_back({"m", Mesh{{{0, 0, -200}}, {{0, 0, 7}}, {}, Diffuse{}}}); }), HasSubstr("vertex"));
+    EXPECT_THAT(refused([](Scene &s) {
+                    s.objects.push_back({"m", Mesh{{{0, 0, -200}}, {{0, 0, 7}}, {}, Diffuse{}}});
+                }),
+                HasSubstr("vertex"));
     EXPECT_THAT(refused([](Scene &s) {
                     s.environment.reset();
                     card(s).surface = Emissive{Rgb(0)};

@@ -68,8 +68,9 @@ struct PlainTree {
     }
 
     void enter(Vec3 p, Vec3 d) {
-        split(p, d, 1, glm::normalize(p), 1, index, [&](Vec3 q, Vec3 e, double w) { in_air(q, e, w); },
-              [&](Vec3 q, Vec3 e, double w) { in_glass(q, e, w); });
+        split(
+            p, d, 1, glm::normalize(p), 1, index, [&](Vec3 q, Vec3 e, double w) { in_air(q, e, w); },
+            [&](Vec3 q, Vec3 e, double w) { in_glass(q, e, w); });
     }
 
     void in_glass(Vec3 p, Vec3 d, double weight) {
@@ -78,19 +79,22 @@ struct PlainTree {
         const double distance = glm::length(foot);
         if (along > 0 && distance < inner && glm::length(p) > inner * (1 + 1e-9)) {
             const Vec3 q = foot - std::sqrt(inner * inner - distance * distance) * d;
-            split(q, d, weight, glm::normalize(q), index, 1, [&](Vec3 a, Vec3 e, double w) { in_glass(a, e, w); },
-                  [&](Vec3 a, Vec3 e, double w) { in_hollow(a, e, w); });
+            split(
+                q, d, weight, glm::normalize(q), index, 1, [&](Vec3 a, Vec3 e, double w) { in_glass(a, e, w); },
+                [&](Vec3 a, Vec3 e, double w) { in_hollow(a, e, w); });
             return;
         }
         const Vec3 q = foot + std::sqrt(outer * outer - distance * distance) * d;
-        split(q, d, weight, -glm::normalize(q), index, 1, [&](Vec3 a, Vec3 e, double w) { in_glass(a, e, w); },
-              [&](Vec3 a, Vec3 e, double w) { in_air(a, e, w); });
+        split(
+            q, d, weight, -glm::normalize(q), index, 1, [&](Vec3 a, Vec3 e, double w) { in_glass(a, e, w); },
+            [&](Vec3 a, Vec3 e, double w) { in_air(a, e, w); });
     }
 
     void in_hollow(Vec3 p, Vec3 d, double weight) {
         const Vec3 q = p - 2 * glm::dot(p, d) * d;
-        split(q, d, weight, -glm::normalize(q), 1, index, [&](Vec3 a, Vec3 e, double w) { in_hollow(a, e, w); },
-              [&](Vec3 a, Vec3 e, double w) { in_glass(a, e, w); });
+        split(
+            q, d, weight, -glm::normalize(q), 1, index, [&](Vec3 a, Vec3 e, double w) { in_hollow(a, e, w); },
+            [&](Vec3 a, Vec3 e, double w) { in_glass(a, e, w); });
     }
 };
 
@@ -128,16 +132,26 @@ TEST_P(PlainTreeTest, MergedTreeSendsTheSameLightTheSameWayAsAPlainTreeInSpace) 
 
 INSTANTIATE_TEST_SUITE_P(SolidAndHollow, PlainTreeTest, testing::Values(0.0, 30.0, 60.0, 66.64));
 
-class LandingTest : public testing::TestWithParam<std::vector<Assignment>> {};
+struct Landing {
+    std::string scene;
+    std::vector<Assignment> assignments;
+};
+
+void PrintTo(const Landing &landing, std::ostream *out) {
+    *out << landing.scene;
+    for (const Assignment &a : landing.assignments) *out << ' ' << a.name << '=' << a.value;
+}
+
+class LandingTest : public testing::TestWithParam<Landing> {};
 
 TEST_P(LandingTest, NinetyFivePercentOfPixelsLandWithinATenBillionthOfTheRadius) {
-    std::vector<Assignment> assignments = GetParam();
-    const std::string name = assignments.front().value;
-    assignments.erase(assignments.begin());
-    for (const Assignment &a : {Assignment{"card.surface", "coordinate"}, {"glass.coating", "antireflective"},
-                                {"image.width_px", "64"}, {"image.height_px", "64"}})
+    std::vector<Assignment> assignments = GetParam().assignments;
+    for (const Assignment &a : {Assignment{"card.surface", "coordinate"},
+                                {"glass.coating", "antireflective"},
+                                {"image.width_px", "64"},
+                                {"image.height_px", "64"}})
         assignments.push_back(a);
-    const Scene s = scene(name, assignments);
+    const Scene s = scene(GetParam().scene, assignments);
     const OrbInScene orb = orb_of(s);
     const Quad &card = card_of(s);
     const Image image = trace(job_of(s, Sampling::pixel_centres)).images.front();
@@ -159,13 +173,13 @@ TEST_P(LandingTest, NinetyFivePercentOfPixelsLandWithinATenBillionthOfTheRadius)
 
 INSTANTIATE_TEST_SUITE_P(
     Scenes, LandingTest,
-    testing::Values(std::vector<Assignment>{{"", "solid"}}, std::vector<Assignment>{{"", "hollow"}, {"orb.wall_mm", "0.68"}},
-                    std::vector<Assignment>{{"", "hollow"}, {"orb.wall_mm", "1.36"}},
-                    std::vector<Assignment>{{"", "hollow"}, {"orb.wall_mm", "2.72"}},
-                    std::vector<Assignment>{{"", "solid"}, {"glass.index", "1.05"}, {"eye.distance_mm", "500"}},
-                    std::vector<Assignment>{{"", "solid"}, {"glass.index", "2.4"}, {"card.distance_mm", "100"}},
-                    std::vector<Assignment>{{"", "hollow"}, {"glass.index", "2.4"}, {"eye.distance_mm", "2000"}, {"card.distance_mm", "400"}},
-                    std::vector<Assignment>{{"", "hollow"}, {"orb.wall_mm", "1e-6"}, {"orb.shift_mm", "10"}}));
+    testing::Values(Landing{"solid", {}}, Landing{"hollow", {{"orb.wall_mm", "0.68"}}},
+                    Landing{"hollow", {{"orb.wall_mm", "1.36"}}}, Landing{"hollow", {{"orb.wall_mm", "2.72"}}},
+                    Landing{"solid", {{"glass.index", "1.05"}, {"eye.distance_mm", "500"}}},
+                    Landing{"solid", {{"glass.index", "2.4"}, {"card.distance_mm", "100"}}},
+                    Landing{"hollow",
+                            {{"glass.index", "2.4"}, {"eye.distance_mm", "2000"}, {"card.distance_mm", "400"}}},
+                    Landing{"hollow", {{"orb.wall_mm", "1e-6"}, {"orb.shift_mm", "10"}}}));
 
 TEST(Furnace, EveryRingOfHalfAPercentOfTheRadiusIsOne) {
     for (const char *kind : {"hollow", "solid"}) {
@@ -186,7 +200,8 @@ TEST(Furnace, EveryRingOfHalfAPercentOfTheRadiusIsOne) {
 }
 
 TEST(Furnace, MissingWeightIsJustWhatThePictureLacks) {
-    RenderJob job = job_of(scene("furnace", {{"image.width_px", "64"}, {"image.height_px", "64"}}), Sampling::pixel_centres);
+    RenderJob job =
+        job_of(scene("furnace", {{"image.width_px", "64"}, {"image.height_px", "64"}}), Sampling::pixel_centres);
     job.cut_weight = 1e-2;
     const TracerOutcome outcome = trace(job);
     const Rgb m = rectangle_mean(outcome.images.front(), 0, 0, 64, 64);
@@ -197,8 +212,8 @@ TEST(Furnace, MissingWeightIsJustWhatThePictureLacks) {
 TEST(Furnace, RouletteDropsNothingAndIsRightOnAverage) {
     TracerSettings settings;
     settings.transport = Transport::roulette;
-    const TracerOutcome outcome =
-        trace(job_of(scene("furnace", {{"image.width_px", "128"}, {"image.height_px", "128"}}), Sampling::box, 16), settings);
+    const TracerOutcome outcome = trace(
+        job_of(scene("furnace", {{"image.width_px", "128"}, {"image.height_px", "128"}}), Sampling::box, 16), settings);
     EXPECT_EQ(outcome.missing_weight_mean, 0);
     EXPECT_NEAR(rectangle_mean(outcome.images.front(), 0, 0, 128, 128).g, 1, 1e-4);
 }
@@ -222,7 +237,8 @@ TEST(Tracer, SeedsGiveDifferentNoiseAndTheSameMean) {
 }
 
 TEST(Tracer, SinglePrecisionIsCloseToDouble) {
-    const RenderJob job = job_of(scene("hollow", {{"image.width_px", "64"}, {"image.height_px", "64"}}), Sampling::pixel_centres);
+    const RenderJob job =
+        job_of(scene("hollow", {{"image.width_px", "64"}, {"image.height_px", "64"}}), Sampling::pixel_centres);
     TracerSettings single;
     single.precision = Precision::single_precision;
     const Image a = trace(job).images.front(), b = trace(job, single).images.front();
@@ -234,7 +250,8 @@ TEST(Tracer, SinglePrecisionIsCloseToDouble) {
 
 TEST(Tracer, LightsADiffuseSurfaceByLambertAndTheGlassShadowRule) {
     Scene s;
-    s.objects = {{"floor", Quad{{0, 0, -100}, {200, 0, 0}, {0, 200, 0}, Diffuse{Rgb(0.5)}}}, {"orb", GlassBall{{0, 0, 0}, 20, {}}}};
+    s.objects = {{"floor", Quad{{0, 0, -100}, {200, 0, 0}, {0, 200, 0}, Diffuse{Rgb(0.5)}}},
+                 {"orb", GlassBall{{0, 0, 0}, 20, {}}}};
     s.lights = {{{0, 0, -1}, Rgb(3)}};
     s.camera.eye_mm = {150, 0, 400};
     s.camera.target_mm = {0, 0, -100};

@@ -89,19 +89,21 @@ TEST(Walls, TheClosedFormsKnowNoRendererAndNoPicture) {
 }
 
 TEST(Walls, MeasuringNeverLearnsWhoMadeAPicture) {
-    for (const char *room : {"exporter/adapter.h", "exporter/run.h", "exporter/povray/", "exporter/blender/", "verifier/tracer/",
-                             "verifier/witness/", "verifier/check/", "verifier/claims/", "verifier/optics/"})
+    for (const char *room :
+         {"exporter/adapter.h", "exporter/run.h", "exporter/povray/", "exporter/blender/", "verifier/tracer/",
+          "verifier/witness/", "verifier/check/", "verifier/claims/", "verifier/optics/"})
         expect_no_way("verifier/measure/", room);
 }
 
 TEST(Walls, TheReportOnlyReadsResults) {
-    for (const char *room : {"verifier/claims/", "verifier/witness/", "verifier/check/", "verifier/tracer/", "verifier/optics/"})
+    for (const char *room :
+         {"verifier/claims/", "verifier/witness/", "verifier/check/", "verifier/tracer/", "verifier/optics/"})
         expect_no_way("verifier/report/", room);
 }
 
 TEST(Walls, ClaimsNeverReachARenderer) {
-    for (const char *room : {"exporter/adapter.h", "exporter/run.h", "exporter/povray/", "exporter/blender/", "verifier/tracer/",
-                             "verifier/witness/", "verifier/check/", "verifier/report/"})
+    for (const char *room : {"exporter/adapter.h", "exporter/run.h", "exporter/povray/", "exporter/blender/",
+                             "verifier/tracer/", "verifier/witness/", "verifier/check/", "verifier/report/"})
         expect_no_way("verifier/claims/", room);
 }
 
@@ -116,8 +118,9 @@ TEST(Walls, ClaimsNeverNameARenderer) {
 }
 
 TEST(Walls, TheTopLevelIsFixed) {
-    const std::set<std::string> allowed{"CMakeLists.txt", "CMakePresets.json", "CHANGELOG.md", "LICENSE", "README.md", "docs",
-                                        "exporter", "scenes", "tests", "tools", "verifier"};
+    const std::set<std::string> allowed{"CMakeLists.txt", "CMakePresets.json", "CHANGELOG.md", "LICENSE", "README.md",
+                                        "docs",           "exporter",          "scenes",       "tests",   "tools",
+                                        "verifier"};
     for (const auto &entry : fs::directory_iterator(root)) {
         const std::string name = entry.path().filename().string();
         if (name.starts_with(".") || name.starts_with("build") || name.starts_with("threefold-report")) continue;

@@ -31,7 +31,8 @@ std::map<std::string, Fault> parse_injections(const std::vector<std::string> &in
     std::map<std::string, Fault> all;
     for (const std::string &text : injections) {
         const std::size_t colon = text.find(':');
-        if (colon == std::string::npos) throw Error(Exit::usage, fmt::format("--inject takes RENDERER:FAULT, not '{}'", text));
+        if (colon == std::string::npos)
+            throw Error(Exit::usage, fmt::format("--inject takes RENDERER:FAULT, not '{}'", text));
         const std::string name = text.substr(0, colon);
         if (std::ranges::count(witness_names(), name) == 0)
             throw Error(Exit::usage, unknown_name("renderer", name, witness_names()));
@@ -55,8 +56,8 @@ void print_plan(const CheckRequest &request) {
     for (const Claim &claim : request.claims) {
         fmt::print("{}\n", claim.name);
         for (const Experiment &e : claim.experiments(context))
-            fmt::print("  {:<16} scene {:<12} {} x {} px, {} replicates\n", e.name, e.record.scene, e.scene.camera.image_width_px(),
-                       e.scene.camera.image_height_px(), e.replicates);
+            fmt::print("  {:<16} scene {:<12} {} x {} px, {} replicates\n", e.name, e.record.scene,
+                       e.scene.camera.image_width_px(), e.scene.camera.image_height_px(), e.replicates);
     }
 }
 
@@ -79,13 +80,13 @@ Exit command_check(const Shop &shop, const CheckCommand &command) {
         print_plan(request);
         return Exit::holds;
     }
-    make_folder(command.folder);
     request.witnesses = find_witnesses(command.with.empty() ? witness_names() : command.with);
     if (!command.with.empty())
         for (const Witness &w : request.witnesses)
             if (!w.present())
                 throw Error(Exit::renderer_missing, fmt::format("{} was asked for and is not installed", w.title),
                             fmt::format("apt-get install {}", w.package));
+    make_folder(command.folder);
 
     std::vector<std::string> names;
     for (const Witness &w : request.witnesses)

@@ -46,8 +46,9 @@ Exit command_compare(const Shop &shop, const CompareRequest &request) {
         pictures.push_back({path, read_image(path)});
         const Image &first = pictures.front().image, &image = pictures.back().image;
         if (image.width != first.width || image.height != first.height)
-            throw Error(Exit::bad_data, fmt::format("{} is {} x {} px, but {} is {} x {} px", path.string(), image.width, image.height,
-                                                    pictures.front().path.string(), first.width, first.height));
+            throw Error(Exit::bad_data,
+                        fmt::format("{} is {} x {} px, but {} is {} x {} px", path.string(), image.width, image.height,
+                                    pictures.front().path.string(), first.width, first.height));
     }
     double mean_of_all = 0;
     for (const Picture &p : pictures) mean_of_all += mean_radiance(p.image) / static_cast<double>(pictures.size());
@@ -62,14 +63,16 @@ Exit command_compare(const Shop &shop, const CompareRequest &request) {
             const Picture &a = pictures[i], &b = pictures[j];
             const TileComparison t = compare_tiles_of_single_pictures(a.image, b.image, request.tile_px, tolerance);
             verdict = all_of(verdict, t.verdict);
-            const double rms = root_mean_square(a.image, b.image), bias = mean_radiance(a.image) - mean_radiance(b.image);
+            const double rms = root_mean_square(a.image, b.image),
+                         bias = mean_radiance(a.image) - mean_radiance(b.image);
             if (!request.json || *request.json != "-")
                 fmt::print("{} against {}: {}\n"
-                           "  {} of {} tiles agree, {} differ, {} undecided (tolerance {:.3g}, {:.3g} % of the mean radiance)\n"
+                           "  {} of {} tiles agree, {} differ, {} undecided (tolerance {:.3g}, {:.3g} % of the mean "
+                           "radiance)\n"
                            "  worst tile at ({}, {}) px: {:+.3g}; RMS {:.3g}; mean difference {:+.3g}\n",
-                           a.path.string(), b.path.string(), to_string(t.verdict), t.holding, t.columns * t.rows, t.failing, t.open,
-                           tolerance, 100 * request.tolerance, t.worst_column * t.tile_px, t.worst_row * t.tile_px,
-                           t.worst_difference, rms, bias);
+                           a.path.string(), b.path.string(), to_string(t.verdict), t.holding, t.columns * t.rows,
+                           t.failing, t.open, tolerance, 100 * request.tolerance, t.worst_column * t.tile_px,
+                           t.worst_row * t.tile_px, t.worst_difference, rms, bias);
             std::string map;
             if (request.folder) {
                 map = fmt::format("difference-{}-{}.png", i + 1, j + 1);
@@ -91,14 +94,19 @@ Exit command_compare(const Shop &shop, const CompareRequest &request) {
                              {"mean_difference", bias},
                              {"map", map}});
         }
-    const Json all{{"schema_version", 1}, {"verdict", to_string(verdict)}, {"mean_radiance", mean_of_all}, {"pairs", pairs}};
+    const Json all{
+        {"schema_version", 1}, {"verdict", to_string(verdict)}, {"mean_radiance", mean_of_all}, {"pairs", pairs}};
     if (request.json) write_result(*request.json, all.dump(1, ' ', false, Json::error_handler_t::replace));
     if (request.folder && shop.verbosity >= 0)
-        fmt::print(stderr, "maps (red: first brighter, blue: darker; full colour at ten tolerances) in {}\n", request.folder->string());
+        fmt::print(stderr, "maps (red: first brighter, blue: darker; full colour at ten tolerances) in {}\n",
+                   request.folder->string());
     switch (verdict) {
-    case Verdict::holds: return Exit::holds;
-    case Verdict::fails: return Exit::fails;
-    case Verdict::undecided: return Exit::undecided;
+    case Verdict::holds:
+        return Exit::holds;
+    case Verdict::fails:
+        return Exit::fails;
+    case Verdict::undecided:
+        return Exit::undecided;
     }
     return Exit::internal;
 }

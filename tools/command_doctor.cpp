@@ -46,9 +46,11 @@ std::string try_out(const Shop &shop, const Witness &witness, const std::filesys
 
 Exit command_doctor(const Shop &shop) {
     for (const auto &[name, version] : library_versions()) fmt::print("{:<14} {}\n", name, version);
-    fmt::print("{:<14} {} of {} cores\n", "threads", shop.threads > 0 ? shop.threads : static_cast<int>(std::thread::hardware_concurrency()),
+    fmt::print("{:<14} {} of {} cores\n", "threads",
+               shop.threads > 0 ? shop.threads : static_cast<int>(std::thread::hardware_concurrency()),
                std::thread::hardware_concurrency());
-    fmt::print("{:<14} {:.1f} GB\n", "memory", static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e9);
+    fmt::print("{:<14} {:.1f} GB\n", "memory",
+               static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e9);
 
     const TemporaryFolder folder;
     Exit exit = Exit::holds;
@@ -59,7 +61,8 @@ Exit command_doctor(const Shop &shop) {
             continue;
         }
         const std::string problem = try_out(shop, w, folder.path());
-        fmt::print("{:<14} {}{}\n", w.name, w.installed ? fmt::format("{} ({}), ", w.installed->version, w.installed->program.string()) : "",
+        fmt::print("{:<14} {}{}\n", w.name,
+                   w.installed ? fmt::format("{} ({}), ", w.installed->version, w.installed->program.string()) : "",
                    problem.empty() ? "makes pictures" : "does not work: " + problem);
         if (!problem.empty() && exit == Exit::holds) exit = Exit::input_output;
     }

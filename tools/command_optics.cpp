@@ -14,6 +14,7 @@
 
 #include "exporter/files.h"
 #include "scenes/error.h"
+#include "tools/restored_impact.h"
 #include "verifier/optics/concentric.h"
 
 namespace threefold {
@@ -159,8 +160,11 @@ Input read_row(const Json &row, const std::string &where) {
     if (!row.is_object()) throw_bad(where + ": is not an object");
     const auto name = [&](const char *key) { return fmt::format("{}, {}", where, key); };
     const auto number = [&](const char *key) { return row_number(row, key, name(key)); };
-    const optics::Quad outer = number("R_mm"), inner = number("r_mm"), index = number("n"), impact = number("b_mm");
+    const optics::Quad outer = number("R_mm"), inner = number("r_mm"), index = number("n");
+    optics::Quad impact = number("b_mm");
     require_range(inner, name("r_mm"));
+    if (row["b_mm"].is_string())
+        impact = restored_impact(impact, row["b_mm"].get_ref<const std::string &>(), inner > 0 ? inner : outer);
     if (inner > outer)
         throw_bad(fmt::format("{}: {} is larger than the outer radius {}", name("r_mm"), to_short_text(inner),
                               to_short_text(outer)));

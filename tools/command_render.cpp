@@ -53,8 +53,8 @@ Exit command_export(const Shop &shop, const ExportRequest &request) {
     std::string command = fmt::format("cd {} && {}", request.folder.string(), adapter.program);
     for (const std::string &argument : exported.arguments) command += " " + argument;
     if (shop.verbosity >= 0)
-        fmt::print(stderr, "wrote {} file{} to {}; to render:\n", exported.files.size(), exported.files.size() == 1 ? "" : "s",
-                   request.folder.string());
+        fmt::print(stderr, "wrote {} file{} to {}; to render:\n", exported.files.size(),
+                   exported.files.size() == 1 ? "" : "s", request.folder.string());
     fmt::print("{}\n", command);
     return Exit::holds;
 }
@@ -64,7 +64,8 @@ Exit command_render(const Shop &shop, const RenderRequest &request) {
     const fs::path output = request.output.value_or(request.scene.name + ".exr");
     const std::string extension = output.extension().string();
     if (extension != ".exr" && extension != ".tif" && extension != ".png")
-        throw Error(Exit::usage, fmt::format("the picture's name must end in .exr, .tif (64-bit) or .png, not '{}'", output.string()));
+        throw Error(Exit::usage, fmt::format("the picture's name must end in .exr, .tif (64-bit) or .png, not '{}'",
+                                             output.string()));
     if (request.samples_per_pixel < 1) throw Error(Exit::bad_data, "--spp must be at least 1");
     if (output.has_parent_path()) make_folder(output.parent_path());
 
@@ -79,11 +80,11 @@ Exit command_render(const Shop &shop, const RenderRequest &request) {
 
     const TemporaryFolder temporary;
     Progress progress({witness.name}, shop.verbosity < 0);
-    const Rendered r =
-        render(witness, job,
-               {request.keep.value_or(temporary.path()), request.scene.name, tracer_settings(request.precision, request.transport),
-                std::chrono::milliseconds(static_cast<long>(1000 * request.time_limit_s)),
-                [&](double share) { progress.update(witness.name, share, request.scene.name); }});
+    const Rendered r = render(witness, job,
+                              {request.keep.value_or(temporary.path()), request.scene.name,
+                               tracer_settings(request.precision, request.transport),
+                               std::chrono::milliseconds(static_cast<long>(1000 * request.time_limit_s)),
+                               [&](double share) { progress.update(witness.name, share, request.scene.name); }});
     progress.finish();
 
     std::map<std::string, std::string> metadata{{"threefold:scene", request.scene.name},
@@ -103,8 +104,10 @@ Exit command_render(const Shop &shop, const RenderRequest &request) {
     if (shop.verbosity >= 0) {
         fmt::print(stderr, "{} in {:.2f} s", witness.title, r.record.seconds);
         if (r.record.missing_weight_mean)
-            fmt::print(stderr, "; dropped with the ends of ray trees: {:.1e} of the light on average, {:.1e} in the worst pixel",
-                       *r.record.missing_weight_mean, *r.record.missing_weight_greatest);
+            fmt::print(
+                stderr,
+                "; dropped with the ends of ray trees: {:.1e} of the light on average, {:.1e} in the worst pixel",
+                *r.record.missing_weight_mean, *r.record.missing_weight_greatest);
         fmt::print(stderr, "\n");
     }
     fmt::print("{}\n", output.string());

@@ -43,7 +43,8 @@ Exit command_list(const Shop &shop, bool json) {
         for (const SceneRecipe &s : shop.scenes) all["scenes"].push_back({{"name", s.name}, {"summary", s.summary}});
         for (const Claim &c : shop.claims)
             all["claims"].push_back({{"name", c.name}, {"statement", c.statement}, {"mutant", to_string(c.mutant)}});
-        for (const FaultEntry &f : faults()) all["faults"].push_back({{"name", f.name}, {"description", f.description}});
+        for (const FaultEntry &f : faults())
+            all["faults"].push_back({{"name", f.name}, {"description", f.description}});
         write_result("-", all.dump(2));
         return Exit::holds;
     }
@@ -59,7 +60,8 @@ Exit command_list(const Shop &shop, bool json) {
 namespace {
 
 std::string range_of(const ParameterSpec &s) {
-    return s.choices.empty() ? fmt::format("[{:g}, {:g}]", s.least, s.greatest) : fmt::format("{}", fmt::join(s.choices, "|"));
+    return s.choices.empty() ? fmt::format("[{:g}, {:g}]", s.least, s.greatest)
+                             : fmt::format("{}", fmt::join(s.choices, "|"));
 }
 
 std::string unit_of(const std::string &name) {
@@ -76,11 +78,18 @@ Exit command_show(const Shop &shop, const SceneRequest &request, bool json) {
     const Scene scene = scene_of(shop, request);
     const Parameters text(recipe.parameters, Preset::text), published(recipe.parameters, Preset::published);
     if (json) {
-        Json all{{"name", recipe.name}, {"summary", recipe.summary}, {"preset", request.preset}, {"parameters", Json::object()}};
+        Json all{{"name", recipe.name},
+                 {"summary", recipe.summary},
+                 {"preset", request.preset},
+                 {"parameters", Json::object()}};
         for (const ParameterSpec &s : recipe.parameters) {
             Json p{{"description", s.description}, {"unit", unit_of(s.name)}};
             if (s.choices.empty())
-                p.update({{"value", values.number(s.name)}, {"text", s.text}, {"published", s.published}, {"least", s.least}, {"greatest", s.greatest}});
+                p.update({{"value", values.number(s.name)},
+                          {"text", s.text},
+                          {"published", s.published},
+                          {"least", s.least},
+                          {"greatest", s.greatest}});
             else
                 p.update({{"value", values.word(s.name)}, {"choices", s.choices}});
             all["parameters"][s.name] = std::move(p);
@@ -91,7 +100,8 @@ Exit command_show(const Shop &shop, const SceneRequest &request, bool json) {
         return Exit::holds;
     }
     fmt::print("{}: {}\n\n", recipe.name, recipe.summary);
-    fmt::print("  {:<28} {:>12} {:>12} {:>12}  {:<4} {:<24} {}\n", "parameter", "value", "text", "published", "unit", "range", "meaning");
+    fmt::print("  {:<28} {:>12} {:>12} {:>12}  {:<4} {:<24} {}\n", "parameter", "value", "text", "published", "unit",
+               "range", "meaning");
     for (const ParameterSpec &s : recipe.parameters)
         fmt::print("  {:<28} {:>12} {:>12} {:>12}  {:<4} {:<24} {}\n", s.name, values.text(s.name), text.text(s.name),
                    published.text(s.name), unit_of(s.name), range_of(s), s.description);

@@ -27,7 +27,8 @@ std::string time_left(double share, double seconds) {
 } // namespace
 
 Progress::Progress(std::vector<std::string> names, bool quiet)
-    : quiet_(quiet), terminal_(isatty(STDERR_FILENO) && std::getenv("TERM") && std::string_view(std::getenv("TERM")) != "dumb"),
+    : quiet_(quiet),
+      terminal_(isatty(STDERR_FILENO) && std::getenv("TERM") && std::string_view(std::getenv("TERM")) != "dumb"),
       last_update_(Clock::now()), last_draw_(Clock::now()) {
     for (std::string &name : names) lines_.push_back({std::move(name), "", 0, 0});
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One line a renderer on stderr: share done and time left. A terminal is redrawn in place; elsewhere a line now and then.
+// One line a renderer on stderr: share done and time left. A terminal is redrawn in place; elsewhere a line now and
+// then.
 #pragma once
 
 #include <chrono>
@@ -9,7 +10,7 @@
 namespace threefold {
 
 class Progress {
-  public:
+public:
     Progress(std::vector<std::string> names, bool quiet);
     ~Progress();
     Progress(const Progress &) = delete;
@@ -19,7 +20,7 @@ class Progress {
     /// Leaves the bars as they stand and goes to the next line.
     void finish();
 
-  private:
+private:
     using Clock = std::chrono::steady_clock;
     struct Line {
         std::string name, now;

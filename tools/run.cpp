@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tools/run.h"
 
+#include <algorithm>
 #include <csignal>
 #include <iostream>
 
@@ -28,7 +29,9 @@ void install_signal_handlers() {
 }
 
 std::string quoted(const std::string &word) {
-    if (!word.empty() && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=:+,%@") == std::string::npos)
+    if (!word.empty() &&
+        word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=:+,%@") ==
+            std::string::npos)
         return word;
     std::string all = "'";
     for (const char c : word) all += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -43,25 +46,32 @@ std::string command_line(int argc, char **argv) {
 
 void add_scene_options(CLI::App &command, SceneRequest &scene) {
     command.add_option("scene", scene.name, "Scene of the catalogue (see: threefold list)")->required();
-    command.add_option("--preset", scene.preset, "Values of the study's wording (text) or of its scene files (published)")->capture_default_str();
-    command.add_option("--set", scene.assignments, "Change a parameter: name=value (see: threefold show SCENE); repeatable")->allow_extra_args(false);
+    command
+        .add_option("--preset", scene.preset, "Values of the study's wording (text) or of its scene files (published)")
+        ->capture_default_str();
+    command
+        .add_option("--set", scene.assignments,
+                    "Change a parameter: name=value (see: threefold show SCENE); repeatable")
+        ->allow_extra_args(false);
     command.add_option("--size", scene.size, "Picture size in pixels, WIDTHxHEIGHT");
 }
 
 } // namespace
 
 int run(int argc, char **argv, const std::vector<SceneRecipe> &scenes, const std::vector<Claim> &claims) {
-    CLI::App app{"Does a conclusion about a glass orb hold in physics, or only in one renderer?\n"
-                 "A scene is rendered by POV-Ray, Blender Cycles and Threefold's own tracer, measured by the same code, held\n"
-                 "against exact optics, and judged: holds, fails, or undecided.\n",
-                 "threefold"};
-    app.footer("Start here:\n"
-               "  threefold render hollow                  a first picture (hollow.exr, hollow.png)\n"
-               "  threefold check --quick                  all claims in all renderers, with a report\n"
-               "  threefold check solid-vs-hollow --set glass.index=1.1 -o water\n"
-               "  threefold optics --impact-mm 60          the closed forms for one ray\n\n"
-               "Exit codes: 0 holds, 1 fails, 2 undecided, 64 usage, 65 bad input, 69 renderer missing, 70 a defect of ours,\n"
-               "74 input or output failed, 124 a renderer ran out of time, 130 interrupted.");
+    CLI::App app{
+        "Does a conclusion about a glass orb hold in physics, or only in one renderer?\n"
+        "A scene is rendered by POV-Ray, Blender Cycles and Threefold's own tracer, measured by the same code, held\n"
+        "against exact optics, and judged: holds, fails, or undecided.\n",
+        "threefold"};
+    app.footer(
+        "Start here:\n"
+        "  threefold render hollow                  a first picture (hollow.exr, hollow.png)\n"
+        "  threefold check --quick                  all claims in all renderers, with a report\n"
+        "  threefold check solid-vs-hollow --set glass.index=1.1 -o water\n"
+        "  threefold optics --impact-mm 60          the closed forms for one ray\n\n"
+        "Exit codes: 0 holds, 1 fails, 2 undecided, 64 usage, 65 bad input, 69 renderer missing, 70 a defect of ours,\n"
+        "74 input or output failed, 124 a renderer ran out of time, 130 interrupted.");
     app.require_subcommand(1);
     app.set_version_flag("--version", [] {
         std::string all;
@@ -86,7 +96,8 @@ int run(int argc, char **argv, const std::vector<SceneRecipe> &scenes, const std
 
     SceneRequest show_scene;
     bool show_json = false;
-    CLI::App &show = *app.add_subcommand("show", "A scene's parameters with units, ranges and both presets, and what it needs");
+    CLI::App &show =
+        *app.add_subcommand("show", "A scene's parameters with units, ranges and both presets, and what it needs");
     add_scene_options(show, show_scene);
     show.add_flag("--json", show_json, "Parameters and the whole scene as JSON on stdout");
 
@@ -98,7 +109,9 @@ int run(int argc, char **argv, const std::vector<SceneRecipe> &scenes, const std
     add_scene_options(export_, export_request.scene);
     export_.add_option("--to", export_request.to, "povray or blender")->required();
     export_.add_option("-o,--output", export_request.folder, "Folder for the files")->required();
-    export_.add_option("--spp", export_request.samples_per_pixel, "Samples per pixel")->capture_default_str()->check(CLI::PositiveNumber);
+    export_.add_option("--spp", export_request.samples_per_pixel, "Samples per pixel")
+        ->capture_default_str()
+        ->check(CLI::PositiveNumber);
     export_.add_option("--seed", export_request.seed, "Seed")->capture_default_str();
     add_common(export_);
 
@@ -106,39 +119,67 @@ int run(int argc, char **argv, const std::vector<SceneRecipe> &scenes, const std
     CLI::App &render = *app.add_subcommand("render", "One picture by one renderer");
     add_scene_options(render, render_request.scene);
     render.add_option("--with", render_request.with, "tracer, povray or cycles")->capture_default_str();
-    render.add_option("-o,--output", render_request.output, "Picture: .exr (float), .tif (64-bit) or .png; a .png preview is put beside it");
+    render.add_option("-o,--output", render_request.output,
+                      "Picture: .exr (float), .tif (64-bit) or .png; a .png preview is put beside it");
     render.add_option("--spp", render_request.samples_per_pixel, "Samples per pixel")->capture_default_str();
     render.add_option("--seed", render_request.seed, "Seed")->capture_default_str();
     render.add_flag("--pixel-centres", render_request.pixel_centres, "One ray through each pixel's centre, no filter");
-    render.add_option("--cut", render_request.cut_weight, "Weight at which a ray tree may be cut")->capture_default_str()->check(CLI::Range(1e-12, 0.5));
+    render.add_option("--cut", render_request.cut_weight, "Weight at which a ray tree may be cut")
+        ->capture_default_str()
+        ->check(CLI::Range(1e-12, 0.5));
     render.add_option("--precision", render_request.precision, "Tracer: float or double")->capture_default_str();
-    render.add_option("--transport", render_request.transport, "Tracer: tree (all branches) or roulette")->capture_default_str();
+    render.add_option("--transport", render_request.transport, "Tracer: tree (all branches) or roulette")
+        ->capture_default_str();
     render.add_option("--keep", render_request.keep, "Keep generated inputs, log and raw pictures in this folder");
-    render.add_option("--timeout", render_request.time_limit_s, "Seconds until a renderer is given up")->capture_default_str()->check(CLI::PositiveNumber);
+    render.add_option("--timeout", render_request.time_limit_s, "Seconds until a renderer is given up")
+        ->capture_default_str()
+        ->check(CLI::PositiveNumber);
     add_common(render);
 
     CheckCommand check_command;
     CLI::App &check = *app.add_subcommand("check", "Judge claims: render, measure, compare with exact optics, report");
     check.add_option("claims", check_command.claims, "Claims (see: threefold list); none: all");
     check.add_flag("--quick", check_command.quick, "Smaller pictures: an answer in two minutes or so");
-    check.add_option("--with", check_command.with, "Renderers, comma-separated: tracer, povray, cycles (default: all that are installed)")->delimiter(',')->allow_extra_args(false);
-    check.add_option("--preset", check_command.preset, "Values of the study's wording (text) or of its scene files (published)")->capture_default_str();
-    check.add_option("--set", check_command.assignments, "Change a parameter of every scene that has it: name=value; repeatable")->allow_extra_args(false);
-    check.add_option("-o,--output", check_command.folder, "Folder of the run: report.html, result.json, inputs, pictures, logs; a killed run goes on there")->capture_default_str();
+    check
+        .add_option("--with", check_command.with,
+                    "Renderers, comma-separated: tracer, povray, cycles (default: all that are installed)")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    check
+        .add_option("--preset", check_command.preset,
+                    "Values of the study's wording (text) or of its scene files (published)")
+        ->capture_default_str();
+    check
+        .add_option("--set", check_command.assignments,
+                    "Change a parameter of every scene that has it: name=value; repeatable")
+        ->allow_extra_args(false);
+    check
+        .add_option("-o,--output", check_command.folder,
+                    "Folder of the run: report.html, result.json, inputs, pictures, logs; a killed run goes on there")
+        ->capture_default_str();
     check.add_option("--json", check_command.json, "Also write the result as JSON here (-: stdout)");
     check.add_option("--junit", check_command.junit, "Also write the result as JUnit XML here");
-    check.add_option("--inject", check_command.injections, "Give one renderer a faulty scene, RENDERER:FAULT, to see that a claim can fail (see: threefold list)")->allow_extra_args(false);
+    check
+        .add_option(
+            "--inject", check_command.injections,
+            "Give one renderer a faulty scene, RENDERER:FAULT, to see that a claim can fail (see: threefold list)")
+        ->allow_extra_args(false);
     check.add_option("--seed", check_command.seed, "Seed")->capture_default_str();
-    check.add_option("--timeout", check_command.time_limit_s, "Seconds until a renderer is given up")->capture_default_str()->check(CLI::PositiveNumber);
+    check.add_option("--timeout", check_command.time_limit_s, "Seconds until a renderer is given up")
+        ->capture_default_str()
+        ->check(CLI::PositiveNumber);
     check.add_option("--precision", check_command.precision, "Tracer: float or double")->capture_default_str();
     check.add_flag("--dry-run", check_command.dry_run, "Say what would be rendered");
     add_common(check);
 
     CompareRequest compare_request;
     CLI::App &compare = *app.add_subcommand("compare", "Two or three pictures, tile by tile");
-    compare.add_option("pictures", compare_request.pictures, "Pictures of the same size (EXR, TIFF, PNG, ...)")->required()->expected(2, 3);
+    compare.add_option("pictures", compare_request.pictures, "Pictures of the same size (EXR, TIFF, PNG, ...)")
+        ->required()
+        ->expected(2, 3);
     compare.add_option("--tile", compare_request.tile_px, "Tile size in pixels")->capture_default_str();
-    compare.add_option("--tolerance", compare_request.tolerance, "On a tile's mean, as a share of the mean radiance")->capture_default_str();
+    compare.add_option("--tolerance", compare_request.tolerance, "On a tile's mean, as a share of the mean radiance")
+        ->capture_default_str();
     compare.add_option("-o,--output", compare_request.folder, "Folder for difference maps");
     compare.add_option("--json", compare_request.json, "Write the numbers as JSON here (-: stdout)");
     add_common(compare);
@@ -149,10 +190,13 @@ int run(int argc, char **argv, const std::vector<SceneRecipe> &scenes, const std
     optics.add_option("--wall-mm", optics_query.wall_mm, "Wall of a hollow orb")->capture_default_str();
     optics.add_flag("--solid", optics_query.solid, "A solid orb");
     optics.add_option("--index", optics_query.index, "Index of the glass")->capture_default_str();
-    optics.add_option("--impact-mm", optics_query.impact_mm, "Distance of the ray's line from the centre")->capture_default_str();
+    optics.add_option("--impact-mm", optics_query.impact_mm, "Distance of the ray's line from the centre")
+        ->capture_default_str();
     optics.add_option("--eye-mm", optics_query.eye_mm, "Eye to orb centre")->capture_default_str();
     optics.add_option("--plane-mm", optics_query.plane_mm, "Orb centre to the plane behind it")->capture_default_str();
-    optics.add_option("--rows", optics_query.rows_file, "Answer every row of a JSON file: R_mm r_mm n b_mm eye_mm plane_mm as decimal strings");
+    optics.add_option("--rows", optics_query.rows_file,
+                      "Answer every row of a JSON file: R_mm r_mm n b_mm eye_mm plane_mm as decimal strings. A b_mm of "
+                      "25 digits that is a share of the clear radius, cut off by the print, is taken whole");
     optics.add_option("--precision", optics_query.precision, "double or quad")->capture_default_str();
     optics.add_option("--json", optics_query.json, "Write JSON here (-: stdout)");
 
@@ -161,6 +205,11 @@ int run(int argc, char **argv, const std::vector<SceneRecipe> &scenes, const std
         return static_cast<int>(error.code());
     };
     try {
+        // The parser would only say that a command is missing.
+        std::vector<std::string> commands;
+        for (const CLI::App *command : app.get_subcommands({})) commands.push_back(command->get_name());
+        if (argc > 1 && argv[1][0] != '-' && std::ranges::count(commands, argv[1]) == 0)
+            throw Error(Exit::usage, unknown_name("command", argv[1], commands));
         app.parse(argc, argv);
         shop.verbosity = quiet ? -1 : verbose ? 1 : 0;
         install_signal_handlers();

@@ -21,7 +21,7 @@ struct Image {
     Rgb &at(int column, int row) { return pixels[index(column, row)]; }
     const Rgb &at(int column, int row) const { return pixels[index(column, row)]; }
 
-  private:
+private:
     std::size_t index(int column, int row) const {
         return static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column);
     }

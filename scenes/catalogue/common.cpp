@@ -44,9 +44,7 @@ Specs orb_parameters() {
             number("orb.shift_mm", "orb moved sideways, to the right of the picture", 0, 0, -huge_mm, huge_mm)};
 }
 
-Specs wall_parameters() {
-    return {number("orb.wall_mm", "thickness of the glass wall", 1.3, 1.36, tiny_mm, huge_mm)};
-}
+Specs wall_parameters() { return {number("orb.wall_mm", "thickness of the glass wall", 1.3, 1.36, tiny_mm, huge_mm)}; }
 
 Specs glass_parameters() {
     return {number("glass.index", "index of the glass in air", 1.51714, 1.51714, 1, 10),
@@ -64,7 +62,8 @@ Specs view_parameters() {
 Specs card_parameters() {
     return {number("card.distance_mm", "orb centre to card", 250, 297.5, tiny_mm, huge_mm),
             number("card.half_width_mm", "half the side of the square card", 300, 300, tiny_mm, huge_mm),
-            word("card.surface", "textured: the robe; coordinate: the probe that says where each ray lands, in the dark",
+            word("card.surface",
+                 "textured: the robe; coordinate: the probe that says where each ray lands, in the dark",
                  {"textured", "coordinate"})};
 }
 
@@ -94,9 +93,10 @@ GlassShell make_shell(const Parameters &p) {
 Camera make_camera(const Parameters &p) {
     const double radius = p.number("orb.radius_mm"), eye = p.number("eye.distance_mm");
     if (!(eye > radius))
-        throw Error(Exit::bad_data, fmt::format("the eye ({} mm from the orb's centre) lies inside the orb of radius {} mm: "
-                                                "eye.distance_mm must be greater than orb.radius_mm",
-                                                eye, radius));
+        throw Error(Exit::bad_data,
+                    fmt::format("the eye ({} mm from the orb's centre) lies inside the orb of radius {} mm: "
+                                "eye.distance_mm must be greater than orb.radius_mm",
+                                eye, radius));
     const double silhouette = radius / std::sqrt((eye - radius) * (eye + radius)); // tangent of its angular radius
     Camera camera;
     camera.eye_mm = {0, 0, eye};

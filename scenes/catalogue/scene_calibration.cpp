@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: MIT
 // No glass at all: where the camera looks, which way up an image lies, and whether radiance comes out as it went in.
+#include "scenes/camera.h"
 #include "scenes/catalogue/catalogue.h"
 #include "scenes/catalogue/common.h"
 #include "scenes/catalogue/textures.h"
-#include "scenes/camera.h"
 
 namespace threefold {
 
 SceneRecipe calibration_scene() {
     return {"calibration", "no glass: a coordinate card beside sixteen patches of known radiance",
-            join({orb_parameters(), view_parameters(), environment_parameters(0.25)}),
-            [](const Parameters &p) {
+            join({orb_parameters(), view_parameters(), environment_parameters(0.25)}), [](const Parameters &p) {
                 Scene scene;
                 scene.camera = make_camera(p);
                 scene.environment = make_environment(p);

@@ -18,9 +18,10 @@ Scene before_card(const Parameters &p, const Shape &orb) {
 } // namespace
 
 SceneRecipe solid_scene() {
-    return {"solid", "a solid glass orb before a card",
-            join({orb_parameters(), glass_parameters(), view_parameters(), card_parameters(), environment_parameters(0.2)}),
-            [](const Parameters &p) { return before_card(p, make_ball(p)); }};
+    return {
+        "solid", "a solid glass orb before a card",
+        join({orb_parameters(), glass_parameters(), view_parameters(), card_parameters(), environment_parameters(0.2)}),
+        [](const Parameters &p) { return before_card(p, make_ball(p)); }};
 }
 
 SceneRecipe hollow_scene() {

@@ -34,7 +34,8 @@ double smooth_step(double from, double to, double x) {
 double band(double x, double half, double soft) { return 1 - smooth_step(half, half + soft, std::abs(x)); }
 
 double box(double x, double y, double left, double right, double bottom, double top, double soft) {
-    return band(x - (left + right) / 2, (right - left) / 2, soft) * band(y - (bottom + top) / 2, (top - bottom) / 2, soft);
+    return band(x - (left + right) / 2, (right - left) / 2, soft) *
+           band(y - (bottom + top) / 2, (top - bottom) / 2, soft);
 }
 
 Rgb mix(Rgb a, Rgb b, double t) { return a * (1 - t) + b * t; }
@@ -51,12 +52,14 @@ std::shared_ptr<const Texture> robe_texture(int side) {
         const double soft = 0.008;
         const double fold = 0.5 + 0.5 * std::sin(2 * std::numbers::pi * (7 * x + 0.6 * std::sin(5 * y)));
         Rgb colour = mix(Rgb(0.05, 0.09, 0.24), Rgb(0.13, 0.22, 0.46), fold);
-        colour = mix(colour, Rgb(0.30, 0.34, 0.42), 0.6 * std::max(band(std::remainder(x, 0.0625), 0.001, 0.006),
-                                                                   band(std::remainder(y, 0.0625), 0.001, 0.006)));
+        colour = mix(colour, Rgb(0.30, 0.34, 0.42),
+                     0.6 * std::max(band(std::remainder(x, 0.0625), 0.001, 0.006),
+                                    band(std::remainder(y, 0.0625), 0.001, 0.006)));
         const double bands = std::max(band(y - x + 0.14, 0.022, soft), band(y + x + 0.14, 0.022, soft));
         colour = mix(colour, Rgb(0.72, 0.50, 0.14), bands);
-        const double letter = std::max({box(x, y, -0.055, -0.03, -0.075, 0.085, soft), box(x, y, -0.055, 0.055, 0.06, 0.085, soft),
-                                        box(x, y, -0.055, 0.025, -0.005, 0.02, soft)});
+        const double letter =
+            std::max({box(x, y, -0.055, -0.03, -0.075, 0.085, soft), box(x, y, -0.055, 0.055, 0.06, 0.085, soft),
+                      box(x, y, -0.055, 0.025, -0.005, 0.02, soft)});
         return mix(colour, Rgb(0.92, 0.88, 0.80), letter);
     });
 }

@@ -22,18 +22,24 @@ double quantile(double degrees_of_freedom, double upper_tail) {
 
 std::string_view to_string(Verdict verdict) {
     switch (verdict) {
-    case Verdict::holds: return "holds";
-    case Verdict::fails: return "fails";
-    case Verdict::undecided: return "undecided";
+    case Verdict::holds:
+        return "holds";
+    case Verdict::fails:
+        return "fails";
+    case Verdict::undecided:
+        return "undecided";
     }
     return "";
 }
 
 std::string_view to_string(Relation relation) {
     switch (relation) {
-    case Relation::equal: return "equal";
-    case Relation::below: return "below";
-    case Relation::above: return "above";
+    case Relation::equal:
+        return "equal";
+    case Relation::below:
+        return "below";
+    case Relation::above:
+        return "above";
     }
     return "";
 }
@@ -84,8 +90,8 @@ Verdict judge(const Interval &m, Relation relation, double value, double toleran
 }
 
 std::optional<int> replicates_to_decide(const Estimate &m, Relation relation, double value, double tolerance) {
-    const double from_edge = relation == Relation::equal ? std::abs(std::abs(m.mean - value) - tolerance)
-                                                         : std::abs(m.mean - value);
+    const double from_edge =
+        relation == Relation::equal ? std::abs(std::abs(m.mean - value) - tolerance) : std::abs(m.mean - value);
     if (!(from_edge > 0) || !std::isfinite(m.standard_error) || m.replicates < 2) return std::nullopt;
     if (m.standard_error == 0) return m.replicates;
     const double spread = m.standard_error * std::sqrt(static_cast<double>(m.replicates));

@@ -37,7 +37,8 @@ Estimate difference(const Estimate &a, const Estimate &b);
 /// The 1 - 2 * significance interval by Student's t.
 Interval interval(const Estimate &e);
 
-/// What is asked of a number. `equal`: it lies within `tolerance` of `value`. `below` and `above`: it lies on that side.
+/// What is asked of a number. `equal`: it lies within `tolerance` of `value`. `below` and `above`: it lies on that
+/// side.
 enum class Relation { equal, below, above };
 std::string_view to_string(Relation relation);
 

@@ -44,10 +44,10 @@ struct Row {
 struct TileComparison {
     std::string experiment, witness, versus;
     int tile_px = 8, columns = 0, rows = 0;
-    double mean_radiance = 0;     ///< of the picture
-    double tolerance = 0;         ///< on a tile's mean, absolute radiance
+    double mean_radiance = 0; ///< of the picture
+    double tolerance = 0;     ///< on a tile's mean, absolute radiance
     std::vector<BudgetItem> budget;
-    double worst_difference = 0;  ///< of the tile means, signed
+    double worst_difference = 0; ///< of the tile means, signed
     int worst_column = 0, worst_row = 0;
     int holding = 0, failing = 0, open = 0; ///< tiles by their own interval
     Verdict verdict = Verdict::undecided;
@@ -96,11 +96,11 @@ struct ClaimResult {
 struct RunResult {
     static constexpr int schema_version = 1;
     std::string threefold_version;
-    std::string started;                               ///< UTC, ISO 8601
-    std::string command;                               ///< what repeats this run
+    std::string started; ///< UTC, ISO 8601
+    std::string command; ///< what repeats this run
     std::string preset;
     bool quick = false;
-    std::map<std::string, std::string> assignments;    ///< --set
+    std::map<std::string, std::string> assignments;            ///< --set
     std::vector<std::pair<std::string, std::string>> versions; ///< libraries and renderers
     std::vector<WitnessRecord> witnesses;
     std::vector<ClaimResult> claims; ///< calibration first

@@ -46,9 +46,15 @@ TileComparison judge_tiles(int columns, int rows, int tile_px, double tolerance,
             }
         }
         switch (verdict) {
-        case Verdict::holds: ++c.holding; break;
-        case Verdict::fails: ++c.failing; break;
-        case Verdict::undecided: ++c.open; break;
+        case Verdict::holds:
+            ++c.holding;
+            break;
+        case Verdict::fails:
+            ++c.failing;
+            break;
+        case Verdict::undecided:
+            ++c.open;
+            break;
         }
     }
     if (any_differs(std::move(p_values)))

@@ -68,12 +68,13 @@ void require_known(const std::vector<Assignment> &assignments, const std::vector
         std::ranges::sort(valid);
         const auto repeated = std::ranges::unique(valid);
         valid.erase(repeated.begin(), repeated.end());
-        if (!std::ranges::binary_search(valid, a.name)) throw Error(Exit::usage, unknown_name("parameter", a.name, valid));
+        if (!std::ranges::binary_search(valid, a.name))
+            throw Error(Exit::usage, unknown_name("parameter", a.name, valid));
     }
 }
 
 class Run {
-  public:
+public:
     explicit Run(const CheckRequest &request)
         : request_(request), context_{request.scenes, request.preset, request.assignments, request.quick} {
         for (const Witness &w : request.witnesses) {
@@ -110,7 +111,7 @@ class Run {
         return {std::move(result_), exit_};
     }
 
-  private:
+private:
     static constexpr std::string_view calibration_name = "calibration";
 
     std::vector<PlannedClaim> make_plan() {
@@ -166,7 +167,8 @@ class Run {
         } catch (const Error &error) {
             // The program itself failed: the others go on, and what they found is not lost.
             const bool of_renderer =
-                w.adapter && (error.code() == Exit::timed_out || error.code() == Exit::input_output || error.code() == Exit::bad_data);
+                w.adapter && (error.code() == Exit::timed_out || error.code() == Exit::input_output ||
+                              error.code() == Exit::bad_data);
             if (!of_renderer) throw;
             record.problem = fmt::format("{} gave no picture of {}: {}", w.title, e.name, error.what());
             if (error.code() != Exit::bad_data) broken_.insert(w.name); // what it refuses says nothing of other scenes
@@ -210,7 +212,8 @@ class Run {
     template <class Judged>
     static void weigh(ClaimResult &result, const Judged &judged) {
         result.verdict = all_of(result.verdict, judged.verdict);
-        if (judged.verdict == Verdict::fails && std::ranges::count(result.blamed, judged.witness) == 0 && judged.versus.empty())
+        if (judged.verdict == Verdict::fails && std::ranges::count(result.blamed, judged.witness) == 0 &&
+            judged.versus.empty())
             result.blamed.push_back(judged.witness);
     }
 
@@ -240,7 +243,8 @@ class Run {
         }
         for (const auto &[quantity, rows] : between)
             for (std::size_t i = 0; i < rows.size(); ++i)
-                for (std::size_t j = i + 1; j < rows.size(); ++j) result.rows.push_back(judged(compared(rows[i].second, rows[j].second)));
+                for (std::size_t j = i + 1; j < rows.size(); ++j)
+                    result.rows.push_back(judged(compared(rows[i].second, rows[j].second)));
     }
 
     static Row compared(const Row &a, const Row &b) {
@@ -271,7 +275,8 @@ class Run {
         std::vector<Image> means;
         for (const Testimony &t : testimonies) {
             means.push_back(mean(t.rendered.images));
-            result.pictures.push_back({ReportPicture::Kind::render, e.name, t.witness->title, encode_png_preview(means.back())});
+            result.pictures.push_back(
+                {ReportPicture::Kind::render, e.name, t.witness->title, encode_png_preview(means.back())});
         }
         if (!e.tile_budget) return;
         for (std::size_t i = 0; i < testimonies.size(); ++i)
@@ -287,8 +292,8 @@ class Run {
                 const double scale = 0.1 * tiles.mean_radiance;
                 result.pictures.push_back(
                     {ReportPicture::Kind::difference, e.name,
-                     fmt::format("{} minus {}: red brighter, blue darker, full colour at 10 % of the mean", a.witness->title,
-                                 b.witness->title),
+                     fmt::format("{} minus {}: red brighter, blue darker, full colour at 10 % of the mean",
+                                 a.witness->title, b.witness->title),
                      encode_png_preview(difference_picture(means[i], means[j], scale))});
                 result.tiles.push_back(std::move(tiles));
             }
@@ -301,7 +306,8 @@ class Run {
             for (const Row &row : calibration.rows)
                 if (row.witness == w.name) verdict = all_of(verdict, row.verdict);
             w.calibrated = verdict == Verdict::holds;
-            if (verdict != Verdict::holds) w.problem = fmt::format("{} failed its calibration: it has no vote", w.title);
+            if (verdict != Verdict::holds)
+                w.problem = fmt::format("{} failed its calibration: it has no vote", w.title);
         }
     }
 
@@ -319,15 +325,19 @@ class Run {
             if (!w.problem.empty()) problems.push_back(w.problem);
         switch (result_.verdict) {
         case Verdict::holds:
-            result_.summary = fmt::format("Every conclusion checked holds in {}, within tolerances that were fixed before "
-                                          "rendering.",
-                                          voters());
+            result_.summary =
+                fmt::format("Every conclusion checked holds in {}, within tolerances that were fixed before "
+                            "rendering.",
+                            voters());
             break;
         case Verdict::fails:
-            result_.summary = fmt::format("Fails: {}{}.", fmt::join(failing, ", "),
-                                          blamed.empty() ? "" : fmt::format(" (contradicted by {})", fmt::join(blamed, ", ")));
+            result_.summary =
+                fmt::format("Fails: {}{}.", fmt::join(failing, ", "),
+                            blamed.empty() ? "" : fmt::format(" (contradicted by {})", fmt::join(blamed, ", ")));
             break;
-        case Verdict::undecided: result_.summary = fmt::format("Undecided: {}.", fmt::join(open, ", ")); break;
+        case Verdict::undecided:
+            result_.summary = fmt::format("Undecided: {}.", fmt::join(open, ", "));
+            break;
         }
         for (const std::string &p : problems) result_.summary += " " + p + ".";
         if (exit_ != Exit::timed_out)

@@ -39,7 +39,8 @@ struct CheckOutcome {
 };
 
 /// Throws Error(usage) for an assignment that no scene of the claims has, Error(bad_data) for a scene without meaning:
-/// both before anything is rendered. What goes wrong with one renderer is told in the result and does not stop the others.
+/// both before anything is rendered. What goes wrong with one renderer is told in the result and does not stop the
+/// others.
 CheckOutcome check(const CheckRequest &request);
 
 } // namespace threefold

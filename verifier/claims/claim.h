@@ -23,8 +23,8 @@ struct Expected {
     std::string quantity, unit;
     Relation relation = Relation::equal;
     double value = 0;
-    std::vector<BudgetItem> budget;  ///< its total is the tolerance; empty for `below` and `above`
-    bool between_renderers = false;  ///< also compared between each pair, within the sum of both tolerances
+    std::vector<BudgetItem> budget; ///< its total is the tolerance; empty for `below` and `above`
+    bool between_renderers = false; ///< also compared between each pair, within the sum of both tolerances
 };
 
 /// One number read from one picture.

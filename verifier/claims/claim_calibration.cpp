@@ -38,7 +38,8 @@ std::vector<Reading> measure_registration(const Scene &scene, const Image &image
             if (!truth || !on_card(card, *truth, 1.5 * px)) continue;
             const auto landed = landing_point(card, image.at(column, row));
             const Vec3 d = landed ? *landed - *truth : 2.0 * card.half_u_mm;
-            const Vec2 error(glm::dot(d, glm::normalize(card.half_u_mm)) / px, -glm::dot(d, glm::normalize(card.half_v_mm)) / px);
+            const Vec2 error(glm::dot(d, glm::normalize(card.half_u_mm)) / px,
+                             -glm::dot(d, glm::normalize(card.half_v_mm)) / px);
             const Vec2 place(glm::dot(*truth - card.centre_mm, glm::normalize(card.half_u_mm)) / px,
                              -glm::dot(*truth - card.centre_mm, glm::normalize(card.half_v_mm)) / px);
             sum += error;
@@ -75,12 +76,14 @@ std::vector<Reading> measure_radiance(const Scene &scene, const Image &image, co
 Claim claim_calibration() {
     Claim claim;
     claim.name = "calibration";
-    claim.statement = "Without glass, every renderer looks where the scene says, keeps images upright and unmirrored, and "
-                      "returns the radiance it was given.";
+    claim.statement =
+        "Without glass, every renderer looks where the scene says, keeps images upright and unmirrored, and "
+        "returns the radiance it was given.";
     claim.experiments = [](const ClaimContext &context) {
         const std::string size = context.quick ? "64" : "128";
-        Experiment e = context.experiment("calibration", "a coordinate card beside patches of known radiance", "calibration",
-                                          {assign("image.width_px", size), assign("image.height_px", size)}, {});
+        Experiment e =
+            context.experiment("calibration", "a coordinate card beside patches of known radiance", "calibration",
+                               {assign("image.width_px", size), assign("image.height_px", size)}, {});
         e.sampling = Sampling::pixel_centres;
         e.samples_per_pixel = 1;
         e.shift_replicates = true;
@@ -117,9 +120,12 @@ Claim claim_calibration() {
     };
     claim.summary = [](const ClaimContext &, Verdict verdict) {
         switch (verdict) {
-        case Verdict::holds: return "The renderers can be trusted with the questions that follow.";
-        case Verdict::fails: return "A renderer does not reproduce even a scene without glass: it has no vote in what follows.";
-        case Verdict::undecided: return "Not every renderer could be calibrated.";
+        case Verdict::holds:
+            return "The renderers can be trusted with the questions that follow.";
+        case Verdict::fails:
+            return "A renderer does not reproduce even a scene without glass: it has no vote in what follows.";
+        case Verdict::undecided:
+            return "Not every renderer could be calibrated.";
         }
         return "";
     };

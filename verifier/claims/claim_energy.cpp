@@ -19,7 +19,8 @@ constexpr int rings_quick = 20;
 /// What the worst ring loses to a tree whose branches are cut.
 double worst_missing(const OrbInScene &orb, int rings, double cut_weight) {
     double worst = 0;
-    // The deficit grows towards the borders of the hollow and of the orb; rings further in lose less than a tenth of it.
+    // The deficit grows towards the borders of the hollow and of the orb; rings further in lose less than a tenth of
+    // it.
     for (int k = rings / 2; k < rings; ++k)
         worst = std::max(worst, mean_missing_weight(orb, orb.optics.outer_mm * k / rings,
                                                     orb.optics.outer_mm * (k + 1) / rings, cut_weight));
@@ -28,10 +29,11 @@ double worst_missing(const OrbInScene &orb, int rings, double cut_weight) {
 
 Experiment furnace(const ClaimContext &context, const std::string &kind) {
     const std::string size = context.quick ? "64" : "256";
-    Experiment e = context.experiment("furnace-" + kind, fmt::format("a {} orb in uniform surroundings", kind), "furnace",
-                                      {assign("image.width_px", size), assign("image.height_px", size)},
-                                      {assign("orb.kind", kind), assign("glass.coating", "fresnel"),
-                                       assign("glass.interface_transmittance", "1"), assign("environment.radiance", "1")});
+    Experiment e =
+        context.experiment("furnace-" + kind, fmt::format("a {} orb in uniform surroundings", kind), "furnace",
+                           {assign("image.width_px", size), assign("image.height_px", size)},
+                           {assign("orb.kind", kind), assign("glass.coating", "fresnel"),
+                            assign("glass.interface_transmittance", "1"), assign("environment.radiance", "1")});
     e.sampling = Sampling::pixel_centres;
     e.samples_per_pixel = 1;
     e.shift_replicates = true;
@@ -47,7 +49,8 @@ Experiment furnace(const ClaimContext &context, const std::string &kind) {
             {"arithmetic", 2e-6, "a few tens of products of shares in single precision"},
         };
         if (a.cuts_whole_trees)
-            budget.push_back({"truncation", 2 * a.cut_weight, "what is left in a tree when it ends, by the renderer's own rule"});
+            budget.push_back(
+                {"truncation", 2 * a.cut_weight, "what is left in a tree when it ends, by the renderer's own rule"});
         if (branches)
             budget.push_back({"truncation", 0.2 * missing,
                               fmt::format("branches under {:g} are dropped: the deficit of {:.2g} in the worst ring is "
@@ -79,16 +82,21 @@ Experiment furnace(const ClaimContext &context, const std::string &kind) {
 Claim claim_energy() {
     Claim claim;
     claim.name = "energy";
-    claim.statement = "Clear glass neither takes nor gives light: in surroundings that are the same everywhere, the orb "
-                      "cannot be seen.";
+    claim.statement =
+        "Clear glass neither takes nor gives light: in surroundings that are the same everywhere, the orb "
+        "cannot be seen.";
     claim.experiments = [](const ClaimContext &context) {
         return std::vector{furnace(context, "hollow"), furnace(context, "solid")};
     };
     claim.summary = [](const ClaimContext &, Verdict verdict) {
         switch (verdict) {
-        case Verdict::holds: return "No renderer loses or invents light in the glass, up to what its cut of the ray tree is known to drop.";
-        case Verdict::fails: return "A renderer loses or invents light in the glass.";
-        case Verdict::undecided: return "It is not settled whether every renderer keeps the light in the glass.";
+        case Verdict::holds:
+            return "No renderer loses or invents light in the glass, up to what its cut of the ray tree is known to "
+                   "drop.";
+        case Verdict::fails:
+            return "A renderer loses or invents light in the glass.";
+        case Verdict::undecided:
+            return "It is not settled whether every renderer keeps the light in the glass.";
         }
         return "";
     };

@@ -37,8 +37,9 @@ double column_of(const Camera &camera, const OrbInScene &orb, double impact_mm) 
 Claim claim_rim_reads_wall() {
     Claim claim;
     claim.name = "rim-reads-wall";
-    claim.statement = "Seen against its surroundings, a hollow orb has a totally reflecting rim that is exactly as wide as "
-                      "its wall, whatever the glass.";
+    claim.statement =
+        "Seen against its surroundings, a hollow orb has a totally reflecting rim that is exactly as wide as "
+        "its wall, whatever the glass.";
     claim.experiments = [](const ClaimContext &context) {
         Experiment e = context.experiment("rim", "the right edge of a hollow orb, magnified", "furnace", {},
                                           {assign("orb.kind", "hollow"), assign("glass.coating", "antireflective"),
@@ -46,10 +47,12 @@ Claim claim_rim_reads_wall() {
                                            assign("environment.radiance", "1"), assign("orb.shift_mm", "0")});
         const OrbInScene orb = orb_of(e.scene);
         Camera &camera = e.scene.camera;
-        const double film_px = wall_px * 2 * orb.optics.outer_mm / orb.optics.wall_mm / std::stod(e.record.parameters["image.orb_share"]);
+        const double film_px =
+            wall_px * 2 * orb.optics.outer_mm / orb.optics.wall_mm / std::stod(e.record.parameters["image.orb_share"]);
         camera.width_px = camera.height_px = static_cast<int>(std::clamp(2 * std::round(film_px / 2), 64.0, 1e8));
         const double ring_middle = column_of(camera, orb, orb.optics.outer_mm - orb.optics.wall_mm / 2);
-        camera.crop = Crop{static_cast<int>(ring_middle) - crop_px / 2, (camera.height_px - crop_px) / 2, crop_px, crop_px};
+        camera.crop =
+            Crop{static_cast<int>(ring_middle) - crop_px / 2, (camera.height_px - crop_px) / 2, crop_px, crop_px};
         e.sampling = Sampling::box;
         e.samples_per_pixel = 64; // coated glass does not split rays: they are cheap
         e.surface_tolerance_mm = 0.002 * orb.optics.wall_mm;
@@ -57,7 +60,10 @@ Claim claim_rim_reads_wall() {
         const double expected = optics::rim_width(orb.optics);
         e.predict = [orb, expected](const Accuracy &a) {
             return std::vector<Expected>{
-                {"width of the rim", "mm", Relation::equal, expected,
+                {"width of the rim",
+                 "mm",
+                 Relation::equal,
+                 expected,
                  {{"tessellation", 4 * a.surface_mm, "both borders lie on tessellated spheres"},
                   {"quantisation", 8 * a.radiance_step * orb.optics.wall_mm, "shares of known brightness"},
                   {"arithmetic", 4 * a.rounding_mm, "rounding of positions"},
@@ -80,9 +86,13 @@ Claim claim_rim_reads_wall() {
     };
     claim.summary = [](const ClaimContext &, Verdict verdict) {
         switch (verdict) {
-        case Verdict::holds: return "The rim is as wide as the wall in every renderer: who measures the rim in a picture knows the glass.";
-        case Verdict::fails: return "In some renderer the rim is not as wide as the wall.";
-        case Verdict::undecided: return "It is not settled that the rim is as wide as the wall.";
+        case Verdict::holds:
+            return "The rim is as wide as the wall in every renderer: who measures the rim in a picture knows the "
+                   "glass.";
+        case Verdict::fails:
+            return "In some renderer the rim is not as wide as the wall.";
+        case Verdict::undecided:
+            return "It is not settled that the rim is as wide as the wall.";
         }
         return "";
     };

@@ -14,9 +14,9 @@ namespace threefold {
 
 namespace {
 
-constexpr double clear_share = 0.98; ///< of the (inner) radius: beyond it a shell bends rays without bound
-constexpr double axis_share = 0.3;   ///< the central slope is fitted within this share of the radius
-constexpr double landing_goal = 1e-4; ///< of the radius: what tessellation may cost a landing point
+constexpr double clear_share = 0.98;      ///< of the (inner) radius: beyond it a shell bends rays without bound
+constexpr double axis_share = 0.3;        ///< the central slope is fitted within this share of the radius
+constexpr double landing_goal = 1e-4;     ///< of the radius: what tessellation may cost a landing point
 constexpr double finest_surface = 2.5e-6; ///< of the radius: finer spheres than this are not asked for
 
 /// Distances from the axis point of the card along the direction in which a ray would land without glass.
@@ -48,7 +48,8 @@ double slope_of(const Scene &scene, const OrbInScene &orb, const Camera &camera,
 }
 
 /// Distance between measured and predicted landing of every pixel that the closed form puts on the card (or off it).
-std::vector<double> landing_errors_mm(const Scene &scene, const OrbInScene &orb, const Image &image, const Camera &camera) {
+std::vector<double> landing_errors_mm(const Scene &scene, const OrbInScene &orb, const Image &image,
+                                      const Camera &camera) {
     const Quad &card = card_of(scene);
     const double margin = 1e-3 * orb.optics.outer_mm, lost = 2 * glm::length(card.half_u_mm);
     std::vector<double> errors;
@@ -107,8 +108,10 @@ Experiment map_experiment(const ClaimContext &context, const std::string &kind) 
             {"central slope", "", Relation::equal, paraxial, slope, true},
         };
         // The conclusion itself, in the words of the study.
-        expected.push_back(kind == "solid" ? Expected{"central slope of a solid orb is negative (inverted)", "", Relation::below, 0, {}}
-                                           : Expected{"central slope of a hollow orb is positive (upright)", "", Relation::above, 0, {}});
+        expected.push_back(
+            kind == "solid"
+                ? Expected{"central slope of a solid orb is negative (inverted)", "", Relation::below, 0, {}}
+                : Expected{"central slope of a hollow orb is positive (upright)", "", Relation::above, 0, {}});
         return expected;
     };
     e.measure = [=](const Image &image, const Camera &camera) {
@@ -136,23 +139,26 @@ Experiment picture_experiment(const ClaimContext &context, const std::string &ki
     const Scene scene = e.scene;
     const OrbInScene orb = orb_of(scene);
     const double mean = predicted_mean_radiance(scene), brightest = 0.92;
-    const double pixel = 2 * film_half_width(scene.camera) / scene.camera.width_px *
-                         glm::length(scene.camera.eye_mm - orb.centre_mm);
+    const double pixel =
+        2 * film_half_width(scene.camera) / scene.camera.width_px * glm::length(scene.camera.eye_mm - orb.centre_mm);
     e.surface_tolerance_mm = 2e-3 * pixel;
     e.tile_budget = [=](const Accuracy &a, const Accuracy &b) {
         const auto dropped = [&](const Accuracy &x) {
             if (x.cuts_whole_trees) return 2 * x.cut_weight;
-            return mean_missing_weight(orb, std::max(0.0, orb.optics.outer_mm - 8 * pixel), orb.optics.outer_mm, x.cut_weight);
+            return mean_missing_weight(orb, std::max(0.0, orb.optics.outer_mm - 8 * pixel), orb.optics.outer_mm,
+                                       x.cut_weight);
         };
         const bool random = a.random_branches || b.random_branches;
         return std::vector<BudgetItem>{
             {"quantisation", a.radiance_step + b.radiance_step, "of the stored pictures"},
-            {"truncation", (dropped(a) + dropped(b)) * brightest, "what cut ray trees lose in the outermost tile, computed"},
+            {"truncation", (dropped(a) + dropped(b)) * brightest,
+             "what cut ray trees lose in the outermost tile, computed"},
             {"tessellation", (a.surface_mm + b.surface_mm) / pixel * brightest / 8, "an edge of the orb across a tile"},
             {"resolution", (random ? 0.007 : 0.0035) * mean,
-             random ? "0.7 % of the mean radiance: the least difference that matters here, where a renderer follows one "
-                      "branch at random"
-                    : "0.35 % of the mean radiance: the least difference that matters here"},
+             random
+                 ? "0.7 % of the mean radiance: the least difference that matters here, where a renderer follows one "
+                   "branch at random"
+                 : "0.35 % of the mean radiance: the least difference that matters here"},
         };
     };
     return e;
@@ -171,37 +177,45 @@ Claim claim_solid_vs_hollow() {
     claim.summary = [](const ClaimContext &, Verdict verdict) {
         switch (verdict) {
         case Verdict::holds:
-            return "Seen through the solid orb the robe stands on its head; through the hollow orb it stays upright and "
+            return "Seen through the solid orb the robe stands on its head; through the hollow orb it stays upright "
+                   "and "
                    "nearly in place. Every renderer shows it, and each agrees with exact optics.";
-        case Verdict::fails: return "Some renderer, or exact optics itself, contradicts the statement for this scene.";
-        case Verdict::undecided: return "The renders do not settle the statement yet.";
+        case Verdict::fails:
+            return "Some renderer, or exact optics itself, contradicts the statement for this scene.";
+        case Verdict::undecided:
+            return "The renders do not settle the statement yet.";
         }
         return "";
     };
     claim.notes = [](const ClaimContext &context) {
         std::vector<std::string> notes;
-        const Experiment solid = context.experiment("", "", "solid", {}, {}), hollow = context.experiment("", "", "hollow", {}, {});
+        const Experiment solid = context.experiment("", "", "solid", {}, {}),
+                         hollow = context.experiment("", "", "hollow", {}, {});
         const OrbInScene ball = orb_of(solid.scene), shell = orb_of(hollow.scene);
         const auto distances = [](const Scene &scene, const OrbInScene &orb) {
-            return std::pair(glm::length(scene.camera.eye_mm - orb.centre_mm), std::abs(orb.centre_mm.z - card_of(scene).centre_mm.z));
+            return std::pair(glm::length(scene.camera.eye_mm - orb.centre_mm),
+                             std::abs(orb.centre_mm.z - card_of(scene).centre_mm.z));
         };
         const auto [eye, plane] = distances(solid.scene, ball);
         if (const auto index = optics::critical_inversion_index(ball.optics.outer_mm, eye, plane))
-            notes.push_back(fmt::format(
-                "It flips at an index of {:.4f}: a solid orb inverts this plane only above it (here {:g}). So it is not true "
-                "of every material denser than air; glass, rock crystal, calcite and water lie above it.",
-                *index, ball.optics.index));
+            notes.push_back(
+                fmt::format("It flips at an index of {:.4f}: a solid orb inverts this plane only above it (here {:g}). "
+                            "So it is not true "
+                            "of every material denser than air; glass, rock crystal, calcite and water lie above it.",
+                            *index, ball.optics.index));
         if (const auto magnification = optics::image_magnification(ball.optics, eye, plane))
-            notes.push_back(fmt::format("The solid orb shows the plane {:.3f} times its size on the axis (negative: inverted).",
-                                        *magnification));
+            notes.push_back(
+                fmt::format("The solid orb shows the plane {:.3f} times its size on the axis (negative: inverted).",
+                            *magnification));
         if (const auto where = optics::plane_where_magnifying_ends(ball.optics, eye))
             notes.push_back(fmt::format("It magnifies planes nearer than {:.4g} mm behind its centre and reduces those "
                                         "farther away (here {:g} mm).",
                                         *where, plane));
         const auto [shell_eye, shell_plane] = distances(hollow.scene, shell);
-        notes.push_back(fmt::format("The hollow orb stays upright at any wall in this view as long as its slope is positive; "
-                                    "here the slope is {:.4f}.",
-                                    optics::paraxial_slope(shell.optics, shell_eye, shell_plane)));
+        notes.push_back(
+            fmt::format("The hollow orb stays upright at any wall in this view as long as its slope is positive; "
+                        "here the slope is {:.4f}.",
+                        optics::paraxial_slope(shell.optics, shell_eye, shell_plane)));
         return notes;
     };
     claim.mutant = Fault::index_one_percent;

@@ -111,8 +111,12 @@ Scene with_fault(Scene scene, Fault fault) {
             if (const auto *shell = std::get_if<GlassShell>(&object.shape))
                 object.shape = GlassBall{shell->centre_mm, shell->outer_radius_mm, shell->glass};
         break;
-    case Fault::camera_one_pixel: scene.camera.film_offset_px.x += 1; break;
-    case Fault::texture_mirrored: change_images(scene, mirrored); break;
+    case Fault::camera_one_pixel:
+        scene.camera.film_offset_px.x += 1;
+        break;
+    case Fault::texture_mirrored:
+        change_images(scene, mirrored);
+        break;
     case Fault::radiance_slip:
         change_images(scene, [](const Texture &t) { return brightened(t, slip); });
         if (scene.environment) scene.environment->radiance *= slip;

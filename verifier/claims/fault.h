@@ -20,7 +20,7 @@ enum class Fault {
 
 struct FaultEntry {
     Fault fault;
-    std::string_view name;        ///< "index+1%"
+    std::string_view name; ///< "index+1%"
     std::string_view description;
 };
 

@@ -10,8 +10,8 @@
 
 namespace threefold {
 
-/// Mean over the three channels and over every pixel for which `ring(column, row)` gives that ring's number; a ring that
-/// no pixel falls into is NaN. Negative numbers are left out.
+/// Mean over the three channels and over every pixel for which `ring(column, row)` gives that ring's number; a ring
+/// that no pixel falls into is NaN. Negative numbers are left out.
 std::vector<double> ring_means(const Image &image, int rings, const std::function<int(int column, int row)> &ring);
 
 /// Mean over the pixels [left, right) x [top, bottom).

@@ -41,10 +41,10 @@ struct Orb {
 /// The point where a ray from outside meets the orb, relative to its centre, and the ray's closest approach.
 template <class Real>
 struct Entry {
-    Real distance;        ///< along the ray
-    Real impact;          ///< distance of the ray's line from the centre
-    Real depth;           ///< half of the chord that the line cuts from the outer sphere
-    Vector<Real> foot;    ///< from the centre to the nearest point of the line
+    Real distance;     ///< along the ray
+    Real impact;       ///< distance of the ray's line from the centre
+    Real depth;        ///< half of the chord that the line cuts from the outer sphere
+    Vector<Real> foot; ///< from the centre to the nearest point of the line
 };
 
 /// False where the line passes by or the orb lies behind. The origin must be outside.
@@ -203,7 +203,8 @@ Real trace_orb(const Orb<Real> &orb, const RayOf<Real> &ray, const Entry<Real> &
     };
     while (live > end.cut && from < to) {
         next.grow(to + 1);
-        for (std::size_t j = from; j <= to; ++j) next.inward[j].weight = next.outward[j].weight = next.hollow[j].weight = 0;
+        for (std::size_t j = from; j <= to; ++j)
+            next.inward[j].weight = next.outward[j].weight = next.hollow[j].weight = 0;
         live = 0;
         std::size_t first = to, last = from;
         const auto used = [&](std::size_t j, Real weight) {

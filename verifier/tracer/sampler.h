@@ -38,7 +38,7 @@ constexpr std::uint32_t owen_scramble(std::uint32_t x, std::uint32_t seed) {
 
 /// The sequence of one pixel in one replicate.
 class PixelSampler {
-  public:
+public:
     PixelSampler(std::uint64_t seed, int column, int row)
         : key_(mix(seed ^ mix((static_cast<std::uint64_t>(static_cast<std::uint32_t>(row)) << 32) |
                               static_cast<std::uint32_t>(column)))) {}
@@ -53,7 +53,7 @@ class PixelSampler {
     /// Independent numbers in [0, 1) for choices along a path.
     double next() { return static_cast<double>(mix(key_ + 3 + ++drawn_) >> 11) * 0x1p-53; }
 
-  private:
+private:
     static constexpr std::uint32_t second_dimension(std::uint32_t k) {
         std::uint32_t x = 0, direction = 1u << 31;
         for (; k; k >>= 1, direction ^= direction >> 1)

@@ -37,8 +37,8 @@ std::array<Vec3, 4> corners(const Quad &q) {
 }
 
 float *new_vertices(RTCGeometry geometry, std::size_t count) {
-    return static_cast<float *>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                        3 * sizeof(float), count));
+    return static_cast<float *>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), count));
 }
 
 unsigned *new_indices(RTCGeometry geometry, RTCFormat format, std::size_t each, std::size_t count) {
@@ -118,7 +118,8 @@ struct Surfaces::State {
 
     static void pass_over_left(const RTCFilterFunctionNArguments *args) {
         const SurfaceHit *left = static_cast<const Query *>(args->context)->left;
-        if (left && RTCHitN_geomID(args->hit, 1, 0) == left->object && RTCHitN_primID(args->hit, 1, 0) == left->triangle)
+        if (left && RTCHitN_geomID(args->hit, 1, 0) == left->object &&
+            RTCHitN_primID(args->hit, 1, 0) == left->triangle)
             args->valid[0] = 0;
     }
 
@@ -157,8 +158,9 @@ struct Surfaces::State {
         const Shape &shape = scene->objects[hit.object].shape;
         if (const Quad *quad = std::get_if<Quad>(&shape)) {
             hit.normal = glm::normalize(glm::cross(quad->half_u_mm, quad->half_v_mm));
-            hit.distance = exact ? glm::dot(quad->centre_mm - ray.origin_mm, hit.normal) / glm::dot(ray.direction, hit.normal)
-                                 : static_cast<double>(found.ray.tfar);
+            hit.distance =
+                exact ? glm::dot(quad->centre_mm - ray.origin_mm, hit.normal) / glm::dot(ray.direction, hit.normal)
+                      : static_cast<double>(found.ray.tfar);
             const Vec3 d = ray.origin_mm + hit.distance * ray.direction - quad->centre_mm;
             hit.uv = {0.5 + 0.5 * glm::dot(d, quad->half_u_mm) / glm::dot(quad->half_u_mm, quad->half_u_mm),
                       0.5 + 0.5 * glm::dot(d, quad->half_v_mm) / glm::dot(quad->half_v_mm, quad->half_v_mm)};
@@ -213,8 +215,8 @@ Surfaces::Surfaces(const Scene &scene, bool exact) : state_(std::make_unique<Sta
     s.origin = scene.camera.target_mm;
     s.world = rtcNewScene(s.device.handle);
     rtcSetSceneFlags(s.world, RTC_SCENE_FLAG_ROBUST); // a ray along an edge shared by two triangles hits one of them
-    const auto quads = static_cast<std::size_t>(std::ranges::count_if(
-        scene.objects, [](const Object &o) { return std::holds_alternative<Quad>(o.shape); }));
+    const auto quads = static_cast<std::size_t>(
+        std::ranges::count_if(scene.objects, [](const Object &o) { return std::holds_alternative<Quad>(o.shape); }));
     for (std::size_t i = 0; i < scene.objects.size(); ++i)
         std::visit(overloaded{
                        [](const GlassBall &) {},
@@ -230,7 +232,8 @@ Surfaces::Surfaces(const Scene &scene, bool exact) : state_(std::make_unique<Sta
                    scene.objects[i].shape);
     rtcCommitScene(s.world);
     if (const RTCError error = rtcGetDeviceError(s.device.handle); error != RTC_ERROR_NONE)
-        throw Error(Exit::internal, fmt::format("Embree could not build the scene (error {})", static_cast<int>(error)));
+        throw Error(Exit::internal,
+                    fmt::format("Embree could not build the scene (error {})", static_cast<int>(error)));
 }
 
 Surfaces::~Surfaces() { rtcReleaseScene(state_->world); }

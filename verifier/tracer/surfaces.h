@@ -22,7 +22,7 @@ struct SurfaceHit {
 /// Embree finds candidates in single precision; where `exact`, distance, uv and normal are then computed in double from
 /// the scene's own numbers. A ray that starts on a surface names it, so that no epsilon is needed.
 class Surfaces {
-  public:
+public:
     Surfaces(const Scene &scene, bool exact);
     ~Surfaces();
     Surfaces(const Surfaces &) = delete;
@@ -34,7 +34,7 @@ class Surfaces {
     Rgb emitted(const SurfaceHit &hit) const;
     std::optional<Rgb> reflectance(const SurfaceHit &hit) const;
 
-  private:
+private:
     struct State;
     std::unique_ptr<State> state_;
 };

@@ -38,7 +38,8 @@ std::vector<Orb<Real>> orbs_of(const Scene &scene) {
     std::vector<Orb<Real>> orbs;
     const auto add = [&orbs](Vec3 centre, double outer, double inner, const Glass &glass) {
         orbs.push_back({Vector<Real>(centre), static_cast<Real>(outer), static_cast<Real>(inner),
-                        static_cast<Real>(glass.index), static_cast<Real>(glass.interface_transmittance), glass.coating});
+                        static_cast<Real>(glass.index), static_cast<Real>(glass.interface_transmittance),
+                        glass.coating});
     };
     for (const Object &object : scene.objects)
         std::visit(overloaded{
@@ -54,7 +55,7 @@ std::vector<Orb<Real>> orbs_of(const Scene &scene) {
 /// The scene, ready to be asked for the radiance along a ray.
 template <class Real>
 class World {
-  public:
+public:
     World(const Scene &scene, const TreeEnd<Real> &end)
         : scene_(scene), end_(end), orbs_(orbs_of<Real>(scene)), surfaces_(scene, std::is_same_v<Real, double>) {}
 
@@ -85,14 +86,15 @@ class World {
             orbs_[orb], ray, entry, end, path.scratch[static_cast<std::size_t>(depth)],
             [&](Vector<Real> from_centre, Vector<Real> direction, Real share) {
                 const RayOf<Real> out{orbs_[orb].centre + from_centre, glm::normalize(direction)};
-                sum += static_cast<double>(share) * radiance(out, weight * static_cast<double>(share), orb, depth + 1, path);
+                sum += static_cast<double>(share) *
+                       radiance(out, weight * static_cast<double>(share), orb, depth + 1, path);
             },
             [&path] { return static_cast<Real>(path.sampler->next()); });
         path.dropped += weight * static_cast<double>(dropped);
         return sum;
     }
 
-  private:
+private:
     std::size_t nearest_orb(const RayOf<Real> &ray, std::size_t left, Entry<Real> &nearest) const {
         std::size_t found = none;
         for (std::size_t i = 0; i < orbs_.size(); ++i) {
@@ -127,7 +129,8 @@ class World {
         double share = 1;
         Entry<Real> entry;
         for (const Orb<Real> &orb : orbs_)
-            if (intersect(orb, RayOf<Real>{Vector<Real>(shadow.origin_mm), Vector<Real>(towards)}, entry)) share *= through;
+            if (intersect(orb, RayOf<Real>{Vector<Real>(shadow.origin_mm), Vector<Real>(towards)}, entry))
+                share *= through;
         return share;
     }
 
@@ -165,22 +168,23 @@ void render(const RenderJob &job, const TreeEnd<Real> &end, const std::function<
             path.dropped = 0;
             Rgb sum(0);
             for (int k = 0; k < samples; ++k) {
-                const Vec2 at = job.sampling == Sampling::pixel_centres
-                                    ? pixel_sample(camera, column, row)
-                                    : Vec2(column, row) + sampler.position(static_cast<std::uint32_t>(k)) +
-                                          camera.film_offset_px;
+                const Vec2 at =
+                    job.sampling == Sampling::pixel_centres
+                        ? pixel_sample(camera, column, row)
+                        : Vec2(column, row) + sampler.position(static_cast<std::uint32_t>(k)) + camera.film_offset_px;
                 const Ray ray = camera_ray(camera, at + replicate.film_offset_px);
                 sum += world.radiance({Vector<Real>(ray.origin_mm), Vector<Real>(ray.direction)}, 1, none, 0, path);
             }
             image.at(column, row) = sum / static_cast<double>(samples);
-            missing[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column)] =
-                path.dropped / samples;
+            missing[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
+                    static_cast<std::size_t>(column)] = path.dropped / samples;
         };
         tbb::parallel_for(tbb::blocked_range2d<int>(0, height, tile_px, 0, width, tile_px), [&](const auto &tile) {
             if (interrupt_requested) throw Error(Exit::interrupted, "interrupted");
             typename World<Real>::Path &path = paths.local();
             for (int row = tile.rows().begin(); row != tile.rows().end(); ++row)
-                for (int column = tile.cols().begin(); column != tile.cols().end(); ++column) render_pixel(column, row, path);
+                for (int column = tile.cols().begin(); column != tile.cols().end(); ++column)
+                    render_pixel(column, row, path);
             const double now = done += static_cast<double>(tile.rows().size() * tile.cols().size());
             if (on_progress) {
                 const std::lock_guard lock(progress_mutex);
@@ -198,7 +202,8 @@ void render(const RenderJob &job, const TreeEnd<Real> &end, const std::function<
 
 } // namespace
 
-TracerOutcome trace(const RenderJob &job, const TracerSettings &settings, const std::function<void(double)> &on_progress) {
+TracerOutcome trace(const RenderJob &job, const TracerSettings &settings,
+                    const std::function<void(double)> &on_progress) {
     const Needs n = needs(job.scene);
     if (n.caustics) throw Error(Exit::bad_data, "the tracer does not follow caustics onto diffuse surfaces");
     if (n.environment_on_diffuse)
@@ -210,13 +215,18 @@ TracerOutcome trace(const RenderJob &job, const TracerSettings &settings, const 
     tbb::task_arena arena(job.threads > 0 ? job.threads : tbb::task_arena::automatic);
     arena.execute([&] {
         const auto run = [&]<class Real>(Real) {
-            render<Real>(job, {static_cast<Real>(roulette ? 0 : job.cut_weight),
-                               static_cast<Real>(roulette ? settings.roulette_weight : 0)},
+            render<Real>(job,
+                         {static_cast<Real>(roulette ? 0 : job.cut_weight),
+                          static_cast<Real>(roulette ? settings.roulette_weight : 0)},
                          on_progress, outcome);
         };
         switch (settings.precision) {
-        case Precision::single_precision: run(float{}); break;
-        case Precision::double_precision: run(double{}); break;
+        case Precision::single_precision:
+            run(float{});
+            break;
+        case Precision::double_precision:
+            run(double{});
+            break;
         }
     });
     outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -228,7 +238,8 @@ Accuracy tracer_accuracy(const RenderJob &job, const TracerSettings &settings) {
     double extent = glm::length(job.scene.camera.eye_mm - job.scene.camera.target_mm);
     for (const Object &object : job.scene.objects)
         if (const Quad *quad = std::get_if<Quad>(&object.shape))
-            extent = std::max(extent, glm::length(quad->centre_mm - job.scene.camera.target_mm) + glm::length(quad->half_u_mm));
+            extent = std::max(extent,
+                              glm::length(quad->centre_mm - job.scene.camera.target_mm) + glm::length(quad->half_u_mm));
     // Some ten roundings at the scale of the scene.
     const double rounding = settings.precision == Precision::double_precision ? 1.1e-16 : 6e-8;
     Accuracy accuracy;

@@ -24,8 +24,8 @@ struct TracerSettings {
 };
 
 struct TracerOutcome {
-    std::vector<Image> images; ///< one a replicate
-    double missing_weight_mean = 0;    ///< weight of the dropped branches, mean over all pixels and replicates
+    std::vector<Image> images;          ///< one a replicate
+    double missing_weight_mean = 0;     ///< weight of the dropped branches, mean over all pixels and replicates
     double missing_weight_greatest = 0; ///< and of the worst pixel
     double seconds = 0, cpu_seconds = 0;
 };

@@ -70,7 +70,8 @@ std::optional<Rendered> cached(const std::filesystem::path &folder, const std::s
         const Json done = Json::parse(read_file(folder / "done.json"));
         if (done.at("key") != key) return std::nullopt;
         Rendered r;
-        for (std::size_t k = 0; k < job.replicates.size(); ++k) r.images.push_back(read_image(folder / picture_name(k)));
+        for (std::size_t k = 0; k < job.replicates.size(); ++k)
+            r.images.push_back(read_image(folder / picture_name(k)));
         r.record.seconds = done.at("seconds");
         r.record.cpu_seconds = done.at("cpu_seconds");
         r.record.peak_memory_mb = done.at("peak_memory_mb");

@@ -42,8 +42,8 @@ struct Rendered {
     RenderRecord record;
 };
 
-/// Renders, or takes the pictures of an earlier run with the same content (inputs, version, settings). Pictures are kept
-/// as lossless 64-bit TIFF; a render counts only once its `done.json` is there.
+/// Renders, or takes the pictures of an earlier run with the same content (inputs, version, settings). Pictures are
+/// kept as lossless 64-bit TIFF; a render counts only once its `done.json` is there.
 Rendered render(const Witness &witness, RenderJob job, const RenderOptions &options);
 
 } // namespace threefold
