@@ -11,16 +11,12 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "scenes/access.h"
+
 namespace threefold {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-
-/// One boundary of glass.
-struct Sphere {
-    Vec3 centre_mm;
-    double radius_mm;
-};
 
 std::vector<Sphere> glass_spheres(const Scene &scene) {
     std::vector<Sphere> spheres;

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "scenes/access.h"
 #include "scenes/camera.h"
 #include "scenes/error.h"
 
@@ -62,26 +63,6 @@ void validate(const Surface &surface) {
                    [](const CoordinateCard &) {},
                },
                surface);
-}
-
-struct Sphere {
-    Vec3 centre_mm;
-    double radius_mm;
-};
-
-std::optional<Sphere> outer_sphere(const Shape &shape) {
-    using Result = std::optional<Sphere>;
-    return std::visit(overloaded{
-                          [](const GlassBall &b) {
-                              return Result({b.centre_mm, b.radius_mm});
-                          },
-                          [](const GlassShell &s) {
-                              return Result({s.centre_mm, s.outer_radius_mm});
-                          },
-                          [](const Quad &) { return Result(); },
-                          [](const Mesh &) { return Result(); },
-                      },
-                      shape);
 }
 
 void validate(const Shape &shape) {
@@ -197,28 +178,6 @@ double greatest_radiance(const Paint &paint) {
             [](const std::shared_ptr<const Texture> &t) { return *std::ranges::max_element(t->rgb) / 65535.0; },
         },
         paint);
-}
-
-const Surface *surface_of(const Shape &shape) {
-    using Result = const Surface *;
-    return std::visit(overloaded{
-                          [](const GlassBall &) { return Result(nullptr); },
-                          [](const GlassShell &) { return Result(nullptr); },
-                          [](const Quad &quad) { return &quad.surface; },
-                          [](const Mesh &mesh) { return &mesh.surface; },
-                      },
-                      shape);
-}
-
-const Glass *glass_of(const Shape &shape) {
-    using Result = const Glass *;
-    return std::visit(overloaded{
-                          [](const GlassBall &ball) { return &ball.glass; },
-                          [](const GlassShell &shell) { return &shell.glass; },
-                          [](const Quad &) { return Result(nullptr); },
-                          [](const Mesh &) { return Result(nullptr); },
-                      },
-                      shape);
 }
 
 } // namespace

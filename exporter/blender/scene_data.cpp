@@ -12,6 +12,7 @@
 
 #include "exporter/blender/objects.h"
 #include "exporter/blender/to_blender.h"
+#include "scenes/access.h"
 #include "scenes/camera.h"
 #include "scenes/validate.h"
 
@@ -28,25 +29,10 @@ constexpr double spacings_per_gap = 100;
 /// wrong at 100).
 constexpr double farthest_glass_radii = 10;
 
-struct Sphere {
-    Vec3 centre_mm;
-    double radius_mm;
-};
-
 std::vector<Sphere> outer_spheres(const Scene &scene) {
     std::vector<Sphere> spheres;
     for (const Object &object : scene.objects)
-        std::visit(overloaded{
-                       [&](const GlassBall &ball) {
-                           spheres.push_back({ball.centre_mm, ball.radius_mm});
-                       },
-                       [&](const GlassShell &shell) {
-                           spheres.push_back({shell.centre_mm, shell.outer_radius_mm});
-                       },
-                       [](const Quad &) {},
-                       [](const Mesh &) {},
-                   },
-                   object.shape);
+        if (const auto sphere = outer_sphere(object.shape)) spheres.push_back(*sphere);
     return spheres;
 }
 

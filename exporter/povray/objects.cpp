@@ -11,22 +11,6 @@
 
 namespace threefold::povray {
 
-const Surface *surface_of(const Shape &shape) {
-    return std::visit(overloaded{[](const GlassBall &) -> const Surface * { return nullptr; },
-                                 [](const GlassShell &) -> const Surface * { return nullptr; },
-                                 [](const Quad &quad) { return &quad.surface; },
-                                 [](const Mesh &mesh) { return &mesh.surface; }},
-                      shape);
-}
-
-const Glass *glass_of(const Shape &shape) {
-    return std::visit(overloaded{[](const GlassBall &ball) { return &ball.glass; },
-                                 [](const GlassShell &shell) { return &shell.glass; },
-                                 [](const Quad &) -> const Glass * { return nullptr; },
-                                 [](const Mesh &) -> const Glass * { return nullptr; }},
-                      shape);
-}
-
 double glass_radius_mm(const Shape &shape) {
     return std::visit(overloaded{[](const GlassBall &ball) { return ball.radius_mm; },
                                  [](const GlassShell &shell) { return shell.outer_radius_mm; },

@@ -78,7 +78,7 @@ std::vector<std::string> arguments(const RenderJob &job, int supersampling, std:
 /// that it finds by refraction, which is how coated glass reflects. Such light is one ray of a few segments.
 int greatest_depth(const Scene &scene) {
     for (const Object &object : scene.objects)
-        if (const Glass *glass = povray::glass_of(object.shape); glass && glass->coating == Coating::antireflective)
+        if (const Glass *glass = glass_of(object.shape); glass && glass->coating == Coating::antireflective)
             return 160;
     return 256;
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "exporter/job.h"
+#include "scenes/access.h"
 
 namespace threefold::povray {
 
@@ -60,8 +61,6 @@ void write_mesh(Writer &writer, const Mesh &mesh);
 /// "texture { ... }" over the unit square of the object's coordinates, or of a mesh's uv.
 std::string surface_texture(Writer &writer, const Surface &surface, bool by_uv);
 bool needs_uv(const Surface &surface);
-const Surface *surface_of(const Shape &shape); ///< null for glass
-const Glass *glass_of(const Shape &shape);     ///< null for the others
 double glass_radius_mm(const Shape &shape);    ///< outer; 0 for the others
 
 Rgb greatest_value(const Paint &paint);

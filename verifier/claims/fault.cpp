@@ -3,34 +3,13 @@
 
 #include <algorithm>
 
+#include "scenes/access.h"
 #include "scenes/error.h"
 #include "scenes/parameters.h"
 
 namespace threefold {
 
 namespace {
-
-Glass *glass_of(Shape &shape) {
-    using Result = Glass *;
-    return std::visit(overloaded{
-                          [](GlassBall &ball) { return &ball.glass; },
-                          [](GlassShell &shell) { return &shell.glass; },
-                          [](Quad &) { return Result(nullptr); },
-                          [](Mesh &) { return Result(nullptr); },
-                      },
-                      shape);
-}
-
-Surface *surface_of(Shape &shape) {
-    using Result = Surface *;
-    return std::visit(overloaded{
-                          [](GlassBall &) { return Result(nullptr); },
-                          [](GlassShell &) { return Result(nullptr); },
-                          [](Quad &quad) { return &quad.surface; },
-                          [](Mesh &mesh) { return &mesh.surface; },
-                      },
-                      shape);
-}
 
 Paint *paint_of(Surface &surface) {
     using Result = Paint *;
