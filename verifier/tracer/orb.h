@@ -3,7 +3,7 @@
 //
 // A ray that enters a concentric orb stays in one plane through the centre and meets each sphere under one angle for
 // ever. So it is traced in that plane: (e1, e2) are the radial and the tangential direction at the point of entry, and
-// a point on a sphere is a unit complex number. Snell and Fresnel are applied at each sphere; a segment turns the point
+// a point on a sphere is a turn. Snell and Fresnel are applied at each sphere; a segment turns the point
 // by the angle that its two ends subtend. Two histories with equally many wall crossings and equally many crossings of
 // the hollow end at the same point in the same direction: they are merged, and the number of states grows with the
 // square of the depth instead of as a power of it.
@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -85,6 +84,16 @@ struct Angle {
     static Angle of_sine(Real s) { return {s, std::sqrt(std::max<Real>(0, (1 - s) * (1 + s)))}; }
 };
 
+/// A point on the unit circle, and the turn that leads to it: std::complex without its care for infinities.
+template <class Real>
+struct Turn {
+    Real cosine = 1, sine = 0;
+
+    friend Turn operator*(Turn a, Turn b) {
+        return {a.cosine * b.cosine - a.sine * b.sine, a.cosine * b.sine + a.sine * b.cosine};
+    }
+};
+
 /// How a tree of rays ends. `cut`: it is followed until the weight still inside is below this. `roulette`: branches
 /// lighter than this survive at random, with their weight raised to it; 0: none.
 template <class Real>
@@ -97,7 +106,7 @@ struct TreeEnd {
 template <class Real>
 struct TreeScratch {
     struct State {
-        std::complex<Real> at{1, 0}; ///< where on its sphere
+        Turn<Real> at; ///< where on its sphere
         Real weight = 0;
     };
     /// One generation: `inward` leave the outer sphere into the glass, `outward` leave the inner sphere into the glass,
@@ -120,7 +129,6 @@ struct TreeScratch {
 template <class Real, class Leave, class Random>
 Real trace_orb(const Orb<Real> &orb, const RayOf<Real> &ray, const Entry<Real> &entry, const TreeEnd<Real> &end,
                TreeScratch<Real> &scratch, Leave &&leave, Random &&random) {
-    using Complex = std::complex<Real>;
     using State = typename TreeScratch<Real>::State;
 
     // The plane of incidence.
@@ -129,9 +137,9 @@ Real trace_orb(const Orb<Real> &orb, const RayOf<Real> &ray, const Entry<Real> &
     const Vector<Real> e1 = (entry.foot - entry.depth * ray.direction) / orb.outer;
     const Vector<Real> away = entry.impact > 0 ? entry.foot / entry.impact : Vector<Real>(0);
     const Vector<Real> e2 = air.cosine * away + air.sine * ray.direction; // unit unless the ray aims at the centre
-    const auto point = [&](Complex at) { return at.real() * e1 + at.imag() * e2; };
-    const auto exit = [&](Complex at, Real weight) {
-        const Vector<Real> radial = point(at), tangential = point(at * Complex(0, 1));
+    const auto point = [&](Turn<Real> at) { return at.cosine * e1 + at.sine * e2; };
+    const auto exit = [&](Turn<Real> at, Real weight) {
+        const Vector<Real> radial = point(at), tangential = point(Turn<Real>{-at.sine, at.cosine});
         leave(orb.outer * radial, air.cosine * radial + air.sine * tangential, weight);
     };
 
@@ -146,7 +154,7 @@ Real trace_orb(const Orb<Real> &orb, const RayOf<Real> &ray, const Entry<Real> &
     const Split<Real> outer = split(Real(1), air, n, glass.sine);
     if (outer.reflected > 0) {
         // The mirror image of the way in: as if it left where it came in.
-        exit(Complex(1, 0), outer.reflected);
+        exit(Turn<Real>{}, outer.reflected);
     }
     const Real entered = outer.transmitted * tau;
     if (!(entered > 0)) return 0;
@@ -154,15 +162,15 @@ Real trace_orb(const Orb<Real> &orb, const RayOf<Real> &ray, const Entry<Real> &
     const Real inner_sine = orb.inner > 0 ? orb.outer * glass.sine / orb.inner : Real(2);
     if (inner_sine >= 1) {
         // Solid, or glass so thick that the ray passes the hollow by: one chord after another.
-        const Complex chord(2 * glass.sine * glass.sine - 1, 2 * glass.sine * glass.cosine); // by pi - 2 theta
-        Complex at(1, 0);
+        const Turn<Real> chord{2 * glass.sine * glass.sine - 1, 2 * glass.sine * glass.cosine}; // by pi - 2 theta
+        Turn<Real> at;
         Real weight = entered;
         while (weight > end.cut) {
             if (weight < end.roulette) {
                 if (random() * end.roulette >= weight) return 0;
                 weight = end.roulette;
             }
-            at *= chord;
+            at = at * chord;
             exit(at, weight * outer.transmitted * tau);
             weight *= outer.reflected;
         }
@@ -171,18 +179,18 @@ Real trace_orb(const Orb<Real> &orb, const RayOf<Real> &ray, const Entry<Real> &
 
     // Inner sphere, from either side; `wall` turns from the outer to the inner sphere or back.
     const Angle<Real> inside = Angle<Real>::of_sine(inner_sine);
-    const Complex wall(inside.cosine * glass.cosine + inside.sine * glass.sine,
-                       inside.sine * glass.cosine - inside.cosine * glass.sine);
+    const Turn<Real> wall{inside.cosine * glass.cosine + inside.sine * glass.sine,
+                       inside.sine * glass.cosine - inside.cosine * glass.sine};
     const Angle<Real> hollow = Angle<Real>::of_sine(std::min<Real>(1, n * inside.sine));
     const Split<Real> inner = split(n, inside, Real(1), n * inside.sine);
-    const Complex across(2 * hollow.sine * hollow.sine - 1, 2 * hollow.sine * hollow.cosine);
+    const Turn<Real> across{2 * hollow.sine * hollow.sine - 1, 2 * hollow.sine * hollow.cosine};
 
     // A generation is a list by wall crossings; all its states have met equally many spheres, so that equal wall
     // crossings mean equal crossings of the hollow.
     auto &now = scratch.now, &next = scratch.next;
     std::size_t from = 0, to = 1; // live entries
     now.grow(2);
-    now.inward[0] = {Complex(1, 0), entered};
+    now.inward[0] = {Turn<Real>{}, entered};
     now.outward[0].weight = now.hollow[0].weight = 0;
     Real live = entered, dropped = 0;
     const Real negligible = end.cut * Real(1e-3);
@@ -197,7 +205,7 @@ Real trace_orb(const Orb<Real> &orb, const RayOf<Real> &ray, const Entry<Real> &
         }
         return true;
     };
-    const auto arrive = [](State &state, Complex at, Real weight) {
+    const auto arrive = [](State &state, Turn<Real> at, Real weight) {
         if (!(state.weight > 0)) state.at = at;
         state.weight += weight;
     };
@@ -214,19 +222,19 @@ Real trace_orb(const Orb<Real> &orb, const RayOf<Real> &ray, const Entry<Real> &
         };
         for (std::size_t j = from; j < to; ++j) {
             if (State &s = now.inward[j]; survives(s)) {
-                const Complex at = s.at * wall;
+                const Turn<Real> at = s.at * wall;
                 if (inner.reflected > 0) arrive(next.outward[j], at, s.weight * inner.reflected);
                 if (inner.transmitted > 0) arrive(next.hollow[j], at, s.weight * inner.transmitted * tau);
                 used(j, s.weight * (inner.reflected + inner.transmitted * tau));
             }
             if (State &s = now.hollow[j]; survives(s)) {
-                const Complex at = s.at * across;
+                const Turn<Real> at = s.at * across;
                 if (inner.reflected > 0) arrive(next.hollow[j], at, s.weight * inner.reflected);
                 arrive(next.outward[j], at, s.weight * inner.transmitted * tau);
                 used(j, s.weight * (inner.reflected + inner.transmitted * tau));
             }
             if (State &s = now.outward[j]; survives(s)) {
-                const Complex at = s.at * wall;
+                const Turn<Real> at = s.at * wall;
                 exit(at, s.weight * outer.transmitted * tau);
                 if (outer.reflected > 0) {
                     arrive(next.inward[j + 1], at, s.weight * outer.reflected);

@@ -85,7 +85,7 @@ public:
         const Real dropped = trace_orb(
             orbs_[orb], ray, entry, end, path.scratch[static_cast<std::size_t>(depth)],
             [&](Vector<Real> from_centre, Vector<Real> direction, Real share) {
-                const RayOf<Real> out{orbs_[orb].centre + from_centre, glm::normalize(direction)};
+                const RayOf<Real> out{orbs_[orb].centre + from_centre, direction};
                 sum += static_cast<double>(share) *
                        radiance(out, weight * static_cast<double>(share), orb, depth + 1, path);
             },
