@@ -76,6 +76,8 @@ struct Mutant {
     std::vector<std::string> claims;
 };
 
+void PrintTo(const Mutant &mutant, std::ostream *out) { *out << mutant.renderer << ' ' << to_string(mutant.fault); }
+
 class Mutants : public testing::TestWithParam<Mutant> {};
 
 TEST_P(Mutants, InOneRenderersExportAloneAreAnsweredByFailsAndTheRendererIsNamed) {

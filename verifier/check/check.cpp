@@ -200,21 +200,39 @@ private:
             return true;
         };
         for (const Row &row : result.rows)
-            if (counts(row.witness, row.versus)) weigh(result, row);
+            if (counts(row.witness, row.versus)) {
+                result.verdict = all_of(result.verdict, row.verdict);
+                // A difference names neither side alone, and a conclusion that optics itself denies is nobody's fault.
+                if (row.verdict == Verdict::fails && row.versus.empty() && row.relation == Relation::equal)
+                    blame(result, row.witness);
+            }
         for (const TileComparison &tiles : result.tiles)
-            if (counts(tiles.witness, tiles.versus)) weigh(result, tiles);
+            if (counts(tiles.witness, tiles.versus)) result.verdict = all_of(result.verdict, tiles.verdict);
+        blame_the_odd_one_out(result);
         if (planned.claim->summary) result.summary = planned.claim->summary(context_, result.verdict);
         if (planned.claim->notes) result.notes = planned.claim->notes(context_);
         return result;
     }
 
-    /// Rows against the closed form name the renderer that is wrong; a difference between two names neither alone.
-    template <class Judged>
-    static void weigh(ClaimResult &result, const Judged &judged) {
-        result.verdict = all_of(result.verdict, judged.verdict);
-        if (judged.verdict == Verdict::fails && std::ranges::count(result.blamed, judged.witness) == 0 &&
-            judged.versus.empty())
-            result.blamed.push_back(judged.witness);
+    static void blame(ClaimResult &result, const std::string &witness) {
+        if (std::ranges::count(result.blamed, witness) == 0) result.blamed.push_back(witness);
+    }
+
+    /// Of three pictures of one scene, two that agree with each other and not with the third.
+    void blame_the_odd_one_out(ClaimResult &result) const {
+        for (const ExperimentRecord &e : result.experiments)
+            for (const Witness &w : request_.witnesses) {
+                int with = 0, failing_with = 0, without = 0, holding_without = 0;
+                for (const TileComparison &t : result.tiles) {
+                    if (t.experiment != e.name) continue;
+                    const bool takes_part = t.witness == w.name || t.versus == w.name;
+                    (takes_part ? with : without) += 1;
+                    failing_with += takes_part && t.verdict == Verdict::fails;
+                    holding_without += !takes_part && t.verdict == Verdict::holds;
+                }
+                if (with > 1 && failing_with == with && without > 0 && holding_without == without)
+                    blame(result, w.name);
+            }
     }
 
     void judge_numbers(const Experiment &e, const std::vector<Testimony> &testimonies, ClaimResult &result) {
@@ -333,7 +351,7 @@ private:
         case Verdict::fails:
             result_.summary =
                 fmt::format("Fails: {}{}.", fmt::join(failing, ", "),
-                            blamed.empty() ? "" : fmt::format(" (contradicted by {})", fmt::join(blamed, ", ")));
+                            blamed.empty() ? "" : fmt::format(" (the numbers of {} are off)", fmt::join(blamed, ", ")));
             break;
         case Verdict::undecided:
             result_.summary = fmt::format("Undecided: {}.", fmt::join(open, ", "));

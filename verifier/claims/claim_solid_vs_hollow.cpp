@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <glm/geometric.hpp>
 
 #include "verifier/claims/claim.h"
@@ -145,9 +146,9 @@ Experiment view_experiment(const ClaimContext &context, const std::string &kind)
 
 Experiment picture_experiment(const ClaimContext &context, const std::string &kind) {
     const std::string size = context.quick ? "48" : "96";
-    Experiment e = context.experiment(kind + "-picture", fmt::format("the robe behind the {} orb, small, to be compared tile by tile", kind), kind,
-                                      {assign("image.width_px", size), assign("image.height_px", size)},
-                                      {assign("card.surface", "textured")});
+    Experiment e = context.experiment(
+        kind + "-picture", fmt::format("the robe behind the {} orb, small, to be compared tile by tile", kind), kind,
+        {assign("image.width_px", size), assign("image.height_px", size)}, {assign("card.surface", "textured")});
     e.sampling = Sampling::box;
     e.samples_per_pixel = 32;
     const Scene scene = e.scene;
@@ -178,6 +179,19 @@ Experiment picture_experiment(const ClaimContext &context, const std::string &ki
     return e;
 }
 
+/// Which of the materials in the debate lie above an index.
+std::string materials_above(double index) {
+    struct Material {
+        std::string_view name;
+        double index; ///< sodium light; calcite: its lower one
+    };
+    constexpr Material materials[]{{"water", 1.333}, {"calcite", 1.486}, {"glass", 1.517}, {"rock crystal", 1.544}};
+    std::vector<std::string_view> above;
+    for (const Material &m : materials)
+        if (m.index > index) above.push_back(m.name);
+    return above.empty() ? "" : fmt::format(" Above it lie {}.", fmt::join(above, ", "));
+}
+
 } // namespace
 
 Claim claim_solid_vs_hollow() {
@@ -185,8 +199,8 @@ Claim claim_solid_vs_hollow() {
     claim.name = "solid-vs-hollow";
     claim.statement = "A solid orb inverts what lies behind it, a hollow one does not.";
     claim.experiments = [](const ClaimContext &context) {
-        return std::vector{view_experiment(context, "solid"), view_experiment(context, "hollow"),
-                           map_experiment(context, "solid"), map_experiment(context, "hollow"),
+        return std::vector{view_experiment(context, "solid"),    view_experiment(context, "hollow"),
+                           map_experiment(context, "solid"),     map_experiment(context, "hollow"),
                            picture_experiment(context, "solid"), picture_experiment(context, "hollow")};
     };
     claim.summary = [](const ClaimContext &, Verdict verdict) {
@@ -213,11 +227,9 @@ Claim claim_solid_vs_hollow() {
         };
         const auto [eye, plane] = distances(solid.scene, ball);
         if (const auto index = optics::critical_inversion_index(ball.optics.outer_mm, eye, plane))
-            notes.push_back(
-                fmt::format("It flips at an index of {:.4f}: a solid orb inverts this plane only above it (here {:g}). "
-                            "So it is not true "
-                            "of every material denser than air; glass, rock crystal, calcite and water lie above it.",
-                            *index, ball.optics.index));
+            notes.push_back(fmt::format("It flips at an index of {:.4f}: a solid orb inverts this plane only above it "
+                                        "(here {:g}), not at every index denser than air.{}",
+                                        *index, ball.optics.index, materials_above(*index)));
         if (const auto magnification = optics::image_magnification(ball.optics, eye, plane))
             notes.push_back(
                 fmt::format("The solid orb shows the plane {:.3f} times its size on the axis (negative: inverted).",
@@ -227,10 +239,10 @@ Claim claim_solid_vs_hollow() {
                                         "farther away (here {:g} mm).",
                                         *where, plane));
         const auto [shell_eye, shell_plane] = distances(hollow.scene, shell);
+        const double slope = optics::paraxial_slope(shell.optics, shell_eye, shell_plane);
         notes.push_back(
-            fmt::format("The hollow orb stays upright at any wall in this view as long as its slope is positive; "
-                        "here the slope is {:.4f}.",
-                        optics::paraxial_slope(shell.optics, shell_eye, shell_plane)));
+            fmt::format("The hollow orb's slope on the axis is {:.4f}: {}, and shown {:.3f} times its size.", slope,
+                        slope > 0 ? "upright" : "inverted", std::abs(1 / slope)));
         return notes;
     };
     claim.mutant = Fault::index_one_percent;

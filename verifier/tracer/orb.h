@@ -180,7 +180,7 @@ Real trace_orb(const Orb<Real> &orb, const RayOf<Real> &ray, const Entry<Real> &
     // Inner sphere, from either side; `wall` turns from the outer to the inner sphere or back.
     const Angle<Real> inside = Angle<Real>::of_sine(inner_sine);
     const Turn<Real> wall{inside.cosine * glass.cosine + inside.sine * glass.sine,
-                       inside.sine * glass.cosine - inside.cosine * glass.sine};
+                          inside.sine * glass.cosine - inside.cosine * glass.sine};
     const Angle<Real> hollow = Angle<Real>::of_sine(std::min<Real>(1, n * inside.sine));
     const Split<Real> inner = split(n, inside, Real(1), n * inside.sine);
     const Turn<Real> across{2 * hollow.sine * hollow.sine - 1, 2 * hollow.sine * hollow.cosine};
