@@ -90,6 +90,11 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"check --inject povray:index+2%", 64, "did you mean 'index+1%'"},
         BadInput{"export hollow --to pov -o x", 64, "povray"}, BadInput{"compare a.exr b.exr", 74, "a.exr"},
         BadInput{"frobnicate", 64, "frobnicate"}, BadInput{"", 64, "subcommand"},
+        BadInput{"render \"$(printf 'a\\nb')\"", 64, "unknown scene"}, BadInput{"render hollow --cut nan", 65, "--cut"},
+        BadInput{"render hollow --timeout nan", 65, "--timeout"}, BadInput{"check --json - --junit -", 64, "stdout"},
+        BadInput{"check --with tracer --inject povray:wall-doubled", 64, "takes no part"},
+        BadInput{"check --quick --with tracer --set image.width_px=100000 --set image.height_px=100000", 65, "GB"},
+        BadInput{"render hollow --with povray --spp 2000000000", 65, "read back"},
         BadInput{"optics --index 0.5", 65, "index"}, BadInput{"optics --impact-mm nan", 65, "impact"},
         BadInput{"optics --rows missing.json", 74, "missing.json"}));
 
@@ -208,6 +213,43 @@ TEST(Cli, AFullDiskIsExit74AndLeavesNothingUnderAFinalName) {
     EXPECT_FALSE(fs::exists(folder / "big.exr"));
     EXPECT_TRUE(fs::is_empty(folder / "."));
     EXPECT_EQ(run(folder, "list > /dev/full; exit $?").exit_code, 74);
+}
+
+TEST(Cli, SurvivesStreamsThatCannotBeWritten) {
+    const tests::TemporaryFolder folder;
+    EXPECT_EQ(run(folder, "list nosuch 2>&-; exit $?").exit_code, 64);
+    EXPECT_EQ(run(folder, "show nosuch 2>/dev/full; exit $?").exit_code, 64);
+    EXPECT_EQ(run(folder, "show hollow --json >/dev/full; exit $?").exit_code, 74);
+    EXPECT_EQ(run(folder, "render hollow --size 16x16 -o a.exr 2>&-; exit $?").exit_code, 0);
+}
+
+TEST(Cli, OddScenesAreNeverHeldAgainstTheRenderer) {
+    const tests::TemporaryFolder folder;
+    for (const char *set :
+         {"orb.wall_mm=20", "orb.wall_mm=30", "orb.wall_mm=60", "orb.wall_mm=67.9", "glass.index=1.01",
+          "orb.shift_mm=30", "orb.shift_mm=200", "eye.distance_mm=68.1", "image.orb_share=1e-6", "image.orb_share=1.5",
+          "orb.wall_mm=1e-7", "environment.radiance=0.01"}) {
+        const Answer answer =
+            run(folder, std::string("check --quick --with tracer energy rim-reads-wall -o r --json - --set ") + set);
+        EXPECT_TRUE(answer.exit_code == 0 || answer.exit_code == 2) << set << ": " << answer.exit_code << answer.err;
+    }
+}
+
+TEST(Cli, ComparesNoPicturesOfOnePixel) {
+    const tests::TemporaryFolder folder;
+    run(folder, "render solid --size 1x1 -o a.exr");
+    expect_one_clear_line(run(folder, "compare a.exr a.exr"), 65, "too small");
+}
+
+TEST(Cli, ARendererThatDoesNotTellItsVersionHasNoVoteAndTheOthersGoOn) {
+    const tests::TemporaryFolder folder;
+    fs::create_directory(folder / "bin");
+    std::ofstream(folder / "bin/povray") << "#!/bin/sh\nexit 3\n";
+    fs::permissions(folder / "bin/povray", fs::perms::owner_all);
+    const Answer answer = run(folder, "check --quick rim-reads-wall -o report", "PATH=$PWD/bin");
+    EXPECT_EQ(answer.exit_code, 2) << answer.err;
+    EXPECT_THAT(answer.out, HasSubstr("version"));
+    EXPECT_EQ(run(folder, "check --quick --with povray -o report", "PATH=$PWD/bin").exit_code, 74);
 }
 
 /// A stand-in for a renderer that is broken in one way; it takes part in no claim of agreement.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // check: claims to verdicts, with a report to look at.
-#include <cmath>
+#include <algorithm>
 #include <cstdlib>
 #include <unistd.h>
 
@@ -73,20 +73,26 @@ Exit command_check(const Shop &shop, const CheckCommand &command) {
     request.seed = command.seed;
     request.threads = shop.threads;
     request.tracer = tracer_settings(command.precision, "tree");
-    request.time_limit = std::chrono::milliseconds(static_cast<long>(1000 * command.time_limit_s));
+    request.time_limit = to_time_limit(command.time_limit_s);
     request.folder = command.folder;
     request.injected = parse_injections(command.injections);
+    for (const auto &[name, fault] : request.injected)
+        if (!command.with.empty() && std::ranges::count(command.with, name) == 0)
+            throw Error(Exit::usage, fmt::format("--inject names {}, which takes no part (--with {})", name,
+                                                 fmt::join(command.with, ",")));
+    if (command.json == "-" && command.junit == "-")
+        throw Error(Exit::usage, "--json and --junit cannot both go to stdout");
     if (command.dry_run) {
         print_plan(request);
         return Exit::holds;
     }
     request.witnesses = find_witnesses(command.with.empty() ? witness_names() : command.with);
-    if (!command.with.empty())
-        for (const Witness &w : request.witnesses)
-            if (!w.present())
-                throw Error(Exit::renderer_missing, fmt::format("{} was asked for and is not installed", w.title),
-                            fmt::format("apt-get install {}", w.package));
-    make_folder(command.folder);
+    for (const Witness &w : request.witnesses) {
+        if (command.with.empty() || w.present()) continue;
+        if (!w.problem.empty()) throw Error(Exit::input_output, w.problem);
+        throw Error(Exit::renderer_missing, fmt::format("{} was asked for and is not installed", w.title),
+                    fmt::format("apt-get install {}", w.package));
+    }
 
     std::vector<std::string> names;
     for (const Witness &w : request.witnesses)

@@ -40,7 +40,8 @@ double mean_radiance(const Image &image) {
 
 Exit command_compare(const Shop &shop, const CompareRequest &request) {
     if (request.tile_px < 2) throw Error(Exit::bad_data, "--tile must be at least 2 px");
-    if (!(request.tolerance > 0)) throw Error(Exit::bad_data, "--tolerance must be positive");
+    if (!(request.tolerance > 0) || !std::isfinite(request.tolerance))
+        throw Error(Exit::bad_data, "--tolerance must be a positive number");
     std::vector<Picture> pictures;
     for (const auto &path : request.pictures) {
         pictures.push_back({path, read_image(path)});
@@ -50,9 +51,12 @@ Exit command_compare(const Shop &shop, const CompareRequest &request) {
                         fmt::format("{} is {} x {} px, but {} is {} x {} px", path.string(), image.width, image.height,
                                     pictures.front().path.string(), first.width, first.height));
     }
+    if (pictures.front().image.pixels.size() < 4)
+        throw Error(Exit::bad_data, "the pictures are too small: a tile needs some pixels to tell its noise from");
     double mean_of_all = 0;
     for (const Picture &p : pictures) mean_of_all += mean_radiance(p.image) / static_cast<double>(pictures.size());
     const double tolerance = request.tolerance * std::abs(mean_of_all);
+    if (!std::isfinite(tolerance)) throw Error(Exit::bad_data, "the pictures are too bright to be compared");
     if (!(tolerance > 0)) throw Error(Exit::bad_data, "the pictures are black: a relative tolerance has no meaning");
     if (request.folder) make_folder(*request.folder);
 
@@ -98,8 +102,8 @@ Exit command_compare(const Shop &shop, const CompareRequest &request) {
         {"schema_version", 1}, {"verdict", to_string(verdict)}, {"mean_radiance", mean_of_all}, {"pairs", pairs}};
     if (request.json) write_result(*request.json, all.dump(1, ' ', false, Json::error_handler_t::replace));
     if (request.folder && shop.verbosity >= 0)
-        fmt::print(stderr, "maps (red: first brighter, blue: darker; full colour at ten tolerances) in {}\n",
-                   request.folder->string());
+        say(fmt::format("maps (red: first brighter, blue: darker; full colour at ten tolerances) in {}",
+                        request.folder->string()));
     switch (verdict) {
     case Verdict::holds:
         return Exit::holds;

@@ -55,6 +55,11 @@ Exit command_doctor(const Shop &shop) {
     const TemporaryFolder folder;
     Exit exit = Exit::holds;
     for (const Witness &w : find_witnesses(witness_names())) {
+        if (!w.problem.empty()) {
+            fmt::print("{:<14} does not work: {}\n", w.name, w.problem);
+            exit = Exit::input_output;
+            continue;
+        }
         if (!w.present()) {
             fmt::print("{:<14} missing: apt-get install {}\n", w.name, w.package);
             exit = Exit::renderer_missing;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // export and render: a scene as another program's input, and as a picture.
+#include <algorithm>
+#include <cctype>
 #include <chrono>
 
 #include <fmt/format.h>
@@ -50,11 +52,11 @@ Exit command_export(const Shop &shop, const ExportRequest &request) {
     job.threads = shop.threads;
     const Exported exported = adapter.compile(job);
     write_exported(exported, request.folder);
-    std::string command = fmt::format("cd {} && {}", request.folder.string(), adapter.program);
-    for (const std::string &argument : exported.arguments) command += " " + argument;
+    std::string command = fmt::format("cd {} && {}", shell_quoted(request.folder.string()), adapter.program);
+    for (const std::string &argument : exported.arguments) command += " " + shell_quoted(argument);
     if (shop.verbosity >= 0)
-        fmt::print(stderr, "wrote {} file{} to {}; to render:\n", exported.files.size(),
-                   exported.files.size() == 1 ? "" : "s", request.folder.string());
+        say(fmt::format("wrote {} file{} to {}; to render:", exported.files.size(),
+                        exported.files.size() == 1 ? "" : "s", request.folder.string()));
     fmt::print("{}\n", command);
     return Exit::holds;
 }
@@ -62,14 +64,18 @@ Exit command_export(const Shop &shop, const ExportRequest &request) {
 Exit command_render(const Shop &shop, const RenderRequest &request) {
     const Scene scene = scene_of(shop, request.scene);
     const fs::path output = request.output.value_or(request.scene.name + ".exr");
-    const std::string extension = output.extension().string();
+    std::string extension = output.extension().string();
+    std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
     if (extension != ".exr" && extension != ".tif" && extension != ".png")
         throw Error(Exit::usage, fmt::format("the picture's name must end in .exr, .tif (64-bit) or .png, not '{}'",
                                              output.string()));
     if (request.samples_per_pixel < 1) throw Error(Exit::bad_data, "--spp must be at least 1");
-    if (output.has_parent_path()) make_folder(output.parent_path());
-
+    if (!(request.cut_weight >= 1e-12 && request.cut_weight <= 0.5))
+        throw Error(Exit::bad_data, fmt::format("--cut must lie in [1e-12, 0.5], not {}", request.cut_weight));
+    const std::chrono::milliseconds time_limit = to_time_limit(request.time_limit_s);
+    const TracerSettings tracer = tracer_settings(request.precision, request.transport);
     const Witness witness = find_witnesses({request.with}).front();
+    if (output.has_parent_path()) make_folder(output.parent_path());
     RenderJob job;
     job.scene = scene;
     job.sampling = request.pixel_centres ? Sampling::pixel_centres : Sampling::box;
@@ -80,11 +86,18 @@ Exit command_render(const Shop &shop, const RenderRequest &request) {
 
     const TemporaryFolder temporary;
     Progress progress({witness.name}, shop.verbosity < 0);
-    const Rendered r = render(witness, job,
-                              {request.keep.value_or(temporary.path()), request.scene.name,
-                               tracer_settings(request.precision, request.transport),
-                               std::chrono::milliseconds(static_cast<long>(1000 * request.time_limit_s)),
-                               [&](double share) { progress.update(witness.name, share, request.scene.name); }});
+    const auto attempt = [&] {
+        try {
+            return render(witness, job,
+                          {request.keep.value_or(temporary.path()), request.scene.name, tracer, time_limit,
+                           [&](double share) { progress.update(witness.name, share, request.scene.name); }});
+        } catch (const Error &error) {
+            // The log goes away with the temporary folder.
+            if (request.keep || !witness.adapter || !error.hint().empty()) throw;
+            throw Error(error.code(), error.what(), "--keep FOLDER keeps the inputs and the log");
+        }
+    };
+    const Rendered r = attempt();
     progress.finish();
 
     std::map<std::string, std::string> metadata{{"threefold:scene", request.scene.name},
@@ -102,13 +115,12 @@ Exit command_render(const Shop &shop, const RenderRequest &request) {
     if (preview != output) write_image(preview, r.images.front());
 
     if (shop.verbosity >= 0) {
-        fmt::print(stderr, "{} in {:.2f} s", witness.title, r.record.seconds);
+        std::string line = fmt::format("{} in {:.2f} s", witness.title, r.record.seconds);
         if (r.record.missing_weight_mean)
-            fmt::print(
-                stderr,
+            line += fmt::format(
                 "; dropped with the ends of ray trees: {:.1e} of the light on average, {:.1e} in the worst pixel",
                 *r.record.missing_weight_mean, *r.record.missing_weight_greatest);
-        fmt::print(stderr, "\n");
+        say(line);
     }
     fmt::print("{}\n", output.string());
     if (preview != output) fmt::print("{}\n", preview.string());

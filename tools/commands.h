@@ -2,6 +2,7 @@
 // One function a command. Results go to stdout, log and progress to stderr; each returns an exit code or throws Error.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -90,6 +91,13 @@ Exit command_compare(const Shop &shop, const CompareRequest &request);
 
 /// Precision and transport by their names on the command line.
 TracerSettings tracer_settings(const std::string &precision, const std::string &transport);
+
+/// A line on stderr; where that cannot be written, there is nobody to tell.
+void say(const std::string &line);
+/// As one word of a shell command.
+std::string shell_quoted(const std::string &word);
+/// Error(bad_data) for what is no time.
+std::chrono::milliseconds to_time_limit(double seconds);
 
 /// Writes to a file, or to stdout for "-".
 void write_result(const std::string &where, const std::string &text);

@@ -50,13 +50,14 @@ void Progress::update(const std::string &name, double share, const std::string &
 void Progress::draw(bool force) {
     if (quiet_) return;
     const auto time = Clock::now();
+    std::string text;
     if (terminal_) {
         if (!force && drawn_ && time - last_draw_ < redraw_after) return;
-        if (drawn_) fmt::print(stderr, "\033[{}A", lines_.size());
+        if (drawn_) text += fmt::format("\033[{}A", lines_.size());
         for (const Line &line : lines_) {
             const int full = static_cast<int>(line.share * bar_width);
-            fmt::print(stderr, "\r{:<8} [{:#<{}}{:.<{}}] {:3.0f} %  {:<16} {}\033[K\n", line.name, "", full, "",
-                       bar_width - full, 100 * line.share, line.now, time_left(line.share, line.seconds));
+            text += fmt::format("\r{:<8} [{:#<{}}{:.<{}}] {:3.0f} %  {:<16} {}\033[K\n", line.name, "", full, "",
+                                bar_width - full, 100 * line.share, line.now, time_left(line.share, line.seconds));
         }
     } else {
         if (!force && time - last_draw_ < log_after) return;
@@ -64,8 +65,9 @@ void Progress::draw(bool force) {
         for (const Line &line : lines_)
             all += fmt::format("{}{} {:.0f} % {}", all.empty() ? "" : " | ", line.name, 100 * line.share,
                                time_left(line.share, line.seconds));
-        fmt::print(stderr, "{}\n", all);
+        text = all + "\n";
     }
+    std::fputs(text.c_str(), stderr);
     std::fflush(stderr);
     drawn_ = true;
     last_draw_ = time;

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <csignal>
+#include <fcntl.h>
 #include <iostream>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -28,19 +30,16 @@ void install_signal_handlers() {
     std::signal(SIGXFSZ, SIG_IGN);
 }
 
-std::string quoted(const std::string &word) {
-    if (!word.empty() &&
-        word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=:+,%@") ==
-            std::string::npos)
-        return word;
-    std::string all = "'";
-    for (const char c : word) all += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return all + "'";
+/// A file that is opened where stderr should be would be taken for it.
+void open_missing_streams() {
+    for (int stream = 0; stream <= 2; ++stream)
+        if (fcntl(stream, F_GETFD) == -1 && open("/dev/null", stream == 0 ? O_RDONLY : O_WRONLY) == -1)
+            _exit(static_cast<int>(Exit::input_output));
 }
 
 std::string command_line(int argc, char **argv) {
     std::string all = "threefold";
-    for (int i = 1; i < argc; ++i) all += " " + quoted(argv[i]);
+    for (int i = 1; i < argc; ++i) all += " " + shell_quoted(argv[i]);
     return all;
 }
 
@@ -59,6 +58,7 @@ void add_scene_options(CLI::App &command, SceneRequest &scene) {
 } // namespace
 
 int run(int argc, char **argv, const std::vector<SceneRecipe> &scenes, const std::vector<Claim> &claims) {
+    open_missing_streams();
     CLI::App app{
         "Does a conclusion about a glass orb hold in physics, or only in one renderer?\n"
         "A scene is rendered by POV-Ray, Blender Cycles and Threefold's own tracer, measured by the same code, held\n"
@@ -200,8 +200,8 @@ int run(int argc, char **argv, const std::vector<SceneRecipe> &scenes, const std
     optics.add_option("--precision", optics_query.precision, "double or quad")->capture_default_str();
     optics.add_option("--json", optics_query.json, "Write JSON here (-: stdout)");
 
-    const auto say = [](const Error &error) {
-        fmt::print(stderr, "threefold: {}{}\n", error.what(), error.hint().empty() ? "" : " (" + error.hint() + ")");
+    const auto refuse = [](const Error &error) {
+        say(fmt::format("threefold: {}{}", error.what(), error.hint().empty() ? "" : " (" + error.hint() + ")"));
         return static_cast<int>(error.code());
     };
     try {
@@ -226,16 +226,15 @@ int run(int argc, char **argv, const std::vector<SceneRecipe> &scenes, const std
         return static_cast<int>(exit);
     } catch (const CLI::ParseError &error) {
         if (error.get_exit_code() == 0) return app.exit(error); // --help, --version
-        fmt::print(stderr, "threefold: {}\n", error.what());
-        return static_cast<int>(Exit::usage);
+        return refuse(Error(Exit::usage, error.what()));
     } catch (const Error &error) {
-        return say(error);
-    } catch (const std::filesystem::filesystem_error &error) {
-        return say(Error(Exit::input_output, error.what()));
+        return refuse(error);
+    } catch (const std::system_error &error) { // files, pipes, a full stdout
+        return refuse(Error(Exit::input_output, error.what()));
     } catch (const std::bad_alloc &) {
-        return say(Error(Exit::bad_data, "out of memory: make the picture smaller"));
+        return refuse(Error(Exit::bad_data, "out of memory: make the picture smaller"));
     } catch (const std::exception &error) {
-        return say(Error(Exit::internal, fmt::format("a defect of Threefold: {}", error.what())));
+        return refuse(Error(Exit::internal, fmt::format("a defect of Threefold: {}", error.what())));
     }
 }
 

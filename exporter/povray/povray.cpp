@@ -15,6 +15,7 @@ namespace {
 using povray::number;
 
 // The greatest radiance is stored one step below full scale, so that rounding never clips it.
+constexpr double most_pixels = 1 << 28;
 constexpr double white = 65535, brightest = 65534;
 
 int supersampling(const RenderJob &job) {
@@ -78,8 +79,7 @@ std::vector<std::string> arguments(const RenderJob &job, int supersampling, std:
 /// that it finds by refraction, which is how coated glass reflects. Such light is one ray of a few segments.
 int greatest_depth(const Scene &scene) {
     for (const Object &object : scene.objects)
-        if (const Glass *glass = glass_of(object.shape); glass && glass->coating == Coating::antireflective)
-            return 160;
+        if (const Glass *glass = glass_of(object.shape); glass && glass->coating == Coating::antireflective) return 160;
     return 256;
 }
 
@@ -123,6 +123,12 @@ Exported compile_povray(const RenderJob &job) {
 
     Exported exported;
     exported.supersampling = supersampling(job);
+    const double pixels = static_cast<double>(job.scene.camera.image_width_px()) * job.scene.camera.image_height_px() *
+                          exported.supersampling * exported.supersampling;
+    if (pixels > most_pixels)
+        povray::refuse(
+            fmt::format("{} samples per pixel make a picture of {:.3g} pixels; at most {:.3g} can be read back",
+                        job.samples_per_pixel, pixels, most_pixels));
     exported.radiance_scale = writer.radiance_scale;
     writer.text = head(job, writer.space, writer.radiance_scale);
     write_camera(writer, exported.supersampling);

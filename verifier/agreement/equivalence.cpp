@@ -56,7 +56,8 @@ Estimate estimate(std::span<const double> values) {
     const double mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
     double squares = 0;
     for (const double v : values) squares += (v - mean) * (v - mean);
-    if (values.size() == 1 || squares == 0) return {mean, 0, infinity, static_cast<int>(values.size())};
+    if (values.size() == 1) return {mean, infinity, 1, 1}; // one number says nothing of its noise
+    if (squares == 0) return {mean, 0, infinity, static_cast<int>(values.size())};
     return {mean, std::sqrt(squares / (n - 1) / n), n - 1, static_cast<int>(values.size())};
 }
 

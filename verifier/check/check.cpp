@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "exporter/files.h"
 #include "exporter/image/image_io.h"
 #include "exporter/scene_json.h"
 #include "scenes/validate.h"
@@ -86,7 +87,9 @@ public:
                 record.version = w.installed->version;
                 record.program = w.installed->program.string();
             }
-            if (!w.present())
+            if (!w.problem.empty())
+                record.problem = w.problem;
+            else if (!w.present())
                 record.problem = fmt::format("{} is not installed (Debian package {})", w.title, w.package);
             if (const auto fault = request.injected.find(w.name); fault != request.injected.end())
                 record.injected_fault = to_string(fault->second);
@@ -102,6 +105,7 @@ public:
         for (const Assignment &a : request_.assignments) result_.assignments[a.name] = a.value;
 
         const std::vector<PlannedClaim> plan = make_plan();
+        make_folder(request_.folder); // not before the scenes are known to be good
         for (const PlannedClaim &planned : plan) {
             result_.claims.push_back(judge_claim(planned));
             if (planned.claim->name == calibration_name) take_votes_away(result_.claims.back());
@@ -170,8 +174,13 @@ private:
                 w.adapter && (error.code() == Exit::timed_out || error.code() == Exit::input_output ||
                               error.code() == Exit::bad_data);
             if (!of_renderer) throw;
-            record.problem = fmt::format("{} gave no picture of {}: {}", w.title, e.name, error.what());
-            if (error.code() != Exit::bad_data) broken_.insert(w.name); // what it refuses says nothing of other scenes
+            const std::string problem = fmt::format("{} gave no picture of {}: {}", w.title, e.name, error.what());
+            if (error.code() == Exit::bad_data) { // what it refuses says nothing of other scenes
+                refusals_.push_back(problem);
+                return std::nullopt;
+            }
+            record.problem = problem;
+            broken_.insert(w.name);
             if (error.code() == Exit::timed_out) exit_ = Exit::timed_out;
             return std::nullopt;
         }
@@ -186,8 +195,9 @@ private:
             result.experiments.push_back(e.record);
             std::vector<Testimony> testimonies;
             for (const Witness &w : request_.witnesses) {
-                if (auto t = ask(w, e)) testimonies.push_back(*std::move(t));
-                complete = complete && record_of(w).problem.empty() && record_of(w).present;
+                auto testimony = ask(w, e);
+                complete = complete && testimony && record_of(w).problem.empty();
+                if (testimony) testimonies.push_back(*std::move(testimony));
             }
             judge_numbers(e, testimonies, result);
             judge_pictures(e, testimonies, result);
@@ -208,7 +218,8 @@ private:
             }
         for (const TileComparison &tiles : result.tiles)
             if (counts(tiles.witness, tiles.versus)) result.verdict = all_of(result.verdict, tiles.verdict);
-        blame_the_odd_one_out(result);
+        if (std::ranges::all_of(result_.witnesses, [](const WitnessRecord &w) { return w.problem.empty(); }))
+            blame_the_odd_one_out(result);
         if (planned.claim->summary) result.summary = planned.claim->summary(context_, result.verdict);
         if (planned.claim->notes) result.notes = planned.claim->notes(context_);
         return result;
@@ -320,12 +331,14 @@ private:
     void take_votes_away(const ClaimResult &calibration) {
         for (WitnessRecord &w : result_.witnesses) {
             if (!w.present || broken_.contains(w.name)) continue;
-            Verdict verdict = Verdict::holds;
+            std::optional<Verdict> verdict;
             for (const Row &row : calibration.rows)
-                if (row.witness == w.name) verdict = all_of(verdict, row.verdict);
-            w.calibrated = verdict == Verdict::holds;
+                if (row.witness == w.name) verdict = all_of(verdict.value_or(Verdict::holds), row.verdict);
+            if (verdict) w.calibrated = *verdict == Verdict::holds;
             if (verdict != Verdict::holds)
-                w.problem = fmt::format("{} failed its calibration: it has no vote", w.title);
+                w.problem =
+                    fmt::format("{} {}: it has no vote", w.title,
+                                verdict == Verdict::fails ? "failed its calibration" : "could not be calibrated");
         }
     }
 
@@ -341,6 +354,7 @@ private:
         }
         for (const WitnessRecord &w : result_.witnesses)
             if (!w.problem.empty()) problems.push_back(w.problem);
+        problems.insert(problems.end(), refusals_.begin(), refusals_.end());
         switch (result_.verdict) {
         case Verdict::holds:
             result_.summary =
@@ -378,6 +392,7 @@ private:
     double experiments_ = 0;
     std::map<std::string, double> finished_;
     std::set<std::string> broken_;
+    std::vector<std::string> refusals_;
 };
 
 } // namespace

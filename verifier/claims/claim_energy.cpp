@@ -2,6 +2,7 @@
 // White furnace: in surroundings that are the same everywhere, glass that neither takes nor gives light must vanish.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -66,12 +67,12 @@ Experiment furnace(const ClaimContext &context, const std::string &kind) {
             const Ray ray = camera_ray(camera, pixel_sample(camera, column, row));
             return static_cast<int>(std::floor(impact_parameter(ray, orb.centre_mm) / orb.optics.outer_mm * rings));
         });
-        double darkest = 2, brightest = 0;
-        for (const double m : means)
-            if (!std::isnan(m)) {
-                darkest = std::min(darkest, m);
-                brightest = std::max(brightest, m);
-            }
+        // fmin and fmax pass over rings without a pixel; without any ring nothing is measured.
+        double darkest = std::numeric_limits<double>::quiet_NaN(), brightest = darkest;
+        for (const double m : means) {
+            darkest = std::fmin(darkest, m);
+            brightest = std::fmax(brightest, m);
+        }
         return std::vector<Reading>{{"darkest ring", darkest}, {"brightest ring", brightest}};
     };
     return e;

@@ -4,6 +4,7 @@
 // hollow (four crossings), at 1/4 by total reflection (two), and at 1 beside the orb.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -17,7 +18,10 @@ namespace threefold {
 namespace {
 
 constexpr double wall_px = 8; ///< the film is so large that the rim is about this wide
-constexpr int crop_px = 32;
+constexpr double least_film_px = 160;
+constexpr double orb_share = 0.8; ///< of the film's width
+constexpr int margin_px = 12;     ///< of the crop beside the rim
+constexpr int rows_px = 32;
 
 /// Image x on the horizontal through the crop's middle where the ray has this impact parameter, right of the orb.
 double column_of(const Camera &camera, const OrbInScene &orb, double impact_mm) {
@@ -41,18 +45,26 @@ Claim claim_rim_reads_wall() {
         "Seen against its surroundings, a hollow orb has a totally reflecting rim that is exactly as wide as "
         "its wall, whatever the glass.";
     claim.experiments = [](const ClaimContext &context) {
-        Experiment e = context.experiment("rim", "the right edge of a hollow orb, magnified", "furnace", {},
-                                          {assign("orb.kind", "hollow"), assign("glass.coating", "antireflective"),
-                                           assign("glass.interface_transmittance", "0.5"),
-                                           assign("environment.radiance", "1"), assign("orb.shift_mm", "0")});
+        Experiment e =
+            context.experiment("rim", "the right edge of a hollow orb, magnified", "furnace", {},
+                               {assign("orb.kind", "hollow"), assign("glass.coating", "antireflective"),
+                                assign("glass.interface_transmittance", "0.5"), assign("environment.radiance", "1"),
+                                assign("orb.shift_mm", "0"), assign("image.orb_share", orb_share)});
         const OrbInScene orb = orb_of(e.scene);
         Camera &camera = e.scene.camera;
-        const double film_px =
-            wall_px * 2 * orb.optics.outer_mm / orb.optics.wall_mm / std::stod(e.record.parameters["image.orb_share"]);
-        camera.width_px = camera.height_px = static_cast<int>(std::clamp(2 * std::round(film_px / 2), 64.0, 1e8));
-        const double ring_middle = column_of(camera, orb, orb.optics.outer_mm - orb.optics.wall_mm / 2);
-        camera.crop =
-            Crop{static_cast<int>(ring_middle) - crop_px / 2, (camera.height_px - crop_px) / 2, crop_px, crop_px};
+        const double wall_share = 0.5 * orb_share * orb.optics.wall_mm / orb.optics.outer_mm; // of the film's width
+        const double film_px = std::clamp(wall_px / wall_share, least_film_px, 1e8);
+        camera.width_px = camera.height_px = static_cast<int>(2 * std::round(film_px / 2));
+        const double middle = column_of(camera, orb, orb.optics.outer_mm - orb.optics.wall_mm / 2);
+        const int width = 2 * static_cast<int>(std::ceil(film_px * wall_share / 2)) + 2 * margin_px;
+        camera.crop = Crop{std::clamp(static_cast<int>(middle) - width / 2, 0, camera.width_px - width),
+                           (camera.height_px - rows_px) / 2, width, rows_px};
+        // Counting crossings reads the rim only where every ray beside it is totally reflected, and where both borders
+        // lie well inside the crop.
+        const double left = column_of(camera, orb, orb.optics.inner_mm),
+                     right = column_of(camera, orb, orb.optics.outer_mm);
+        const bool readable = optics::rim_width(orb.optics) > orb.optics.wall_mm * (1 - 1e-9) && left > 2 &&
+                              right < width - 2 && right - left > 2;
         e.sampling = Sampling::box;
         e.samples_per_pixel = 64; // coated glass does not split rays: they are cheap
         e.surface_tolerance_mm = 0.002 * orb.optics.wall_mm;
@@ -70,7 +82,8 @@ Claim claim_rim_reads_wall() {
                   {"edge", 0.002 * orb.optics.wall_mm, "a border that curves through a pixel, and its finite samples"}},
                  true}};
         };
-        e.measure = [orb](const Image &image, const Camera &at) {
+        e.measure = [orb, readable](const Image &image, const Camera &at) {
+            if (!readable) return std::vector<Reading>{{"width of the rim", std::numeric_limits<double>::quiet_NaN()}};
             const double split = std::round(column_of(at, orb, orb.optics.outer_mm - orb.optics.wall_mm / 2));
             double sum = 0;
             for (int row = 0; row < image.height; ++row) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "scenes/error.h"
+#include "scenes/validate.h"
 #include "verifier/claims/claim.h"
 
 namespace threefold {
@@ -42,6 +43,7 @@ Experiment ClaimContext::experiment(std::string name, std::string title, std::st
     e.name = std::move(name);
     e.title = std::move(title);
     e.scene = recipe.make(values);
+    validate(e.scene); // before a claim computes anything on it
     e.record.name = e.name;
     e.record.title = e.title;
     e.record.scene = recipe.name;

@@ -71,7 +71,19 @@ double card_radiance(const Quad &card, Vec3 point_mm, double elsewhere) {
 
 } // namespace
 
-double predicted_mean_radiance(const Scene &scene) {
+Scene coarse(Scene scene) {
+    constexpr int most_px = 128;
+    Camera &camera = scene.camera;
+    const int longest = std::max(camera.width_px, camera.height_px);
+    if (camera.crop || longest <= most_px) return scene;
+    const double factor = static_cast<double>(most_px) / longest;
+    camera.width_px = std::max(1, static_cast<int>(camera.width_px * factor));
+    camera.height_px = std::max(1, static_cast<int>(camera.height_px * factor));
+    return scene;
+}
+
+double predicted_mean_radiance(const Scene &full) {
+    const Scene scene = coarse(full);
     const OrbInScene orb = orb_of(scene);
     const Quad &card = card_of(scene);
     const Vec3 normal = glm::cross(card.half_u_mm, card.half_v_mm);
@@ -95,7 +107,8 @@ double predicted_mean_radiance(const Scene &scene) {
     return sum / (static_cast<double>(scene.camera.image_width_px()) * scene.camera.image_height_px());
 }
 
-double landing_leverage(const Scene &scene, double clear_share, double q) {
+double landing_leverage(const Scene &full, double clear_share, double q) {
+    const Scene scene = coarse(full);
     const OrbInScene orb = orb_of(scene);
     const Quad &card = card_of(scene);
     const double clear = clear_share * orb.clear_radius_mm(), step = 1e-5 * orb.optics.outer_mm;

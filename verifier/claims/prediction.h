@@ -30,6 +30,9 @@ double impact_parameter(const Ray &ray, Vec3 centre_mm);
 std::optional<Vec3> predicted_landing(const OrbInScene &orb, const Quad &card, const Ray &ray);
 bool on_card(const Quad &card, Vec3 point_mm, double margin_mm = 0);
 
+/// The same view in at most 128 pixels a side: enough for what is computed before rendering.
+Scene coarse(Scene scene);
+
 /// Mean radiance of the picture by the straight-through path alone, the rest of the light coming from the environment:
 /// good to a few per cent, and known before any pixel exists.
 double predicted_mean_radiance(const Scene &scene);

@@ -72,6 +72,9 @@ std::optional<Rendered> cached(const std::filesystem::path &folder, const std::s
         Rendered r;
         for (std::size_t k = 0; k < job.replicates.size(); ++k)
             r.images.push_back(read_image(folder / picture_name(k)));
+        for (const Image &image : r.images)
+            if (image.width != job.scene.camera.image_width_px() || image.height != job.scene.camera.image_height_px())
+                return std::nullopt;
         r.record.seconds = done.at("seconds");
         r.record.cpu_seconds = done.at("cpu_seconds");
         r.record.peak_memory_mb = done.at("peak_memory_mb");
@@ -139,7 +142,12 @@ std::vector<Witness> find_witnesses(const std::vector<std::string> &names) {
     for (const Adapter &adapter : adapters())
         if (std::ranges::count(names, adapter.name)) {
             found.push_back(witness_of(adapter));
-            found.back().installed = find_renderer(adapter);
+            try {
+                found.back().installed = find_renderer(adapter);
+            } catch (const Error &error) {
+                if (error.code() == Exit::interrupted) throw;
+                found.back().problem = error.what();
+            }
         }
     return found;
 }
@@ -148,6 +156,7 @@ Rendered render(const Witness &witness, RenderJob job, const RenderOptions &opti
     validate(job.scene);
     if (witness.adapter && job.sampling == Sampling::box && needs(job.scene).ray_tree)
         job.samples_per_pixel *= witness.adapter->sample_factor;
+    if (!witness.problem.empty()) throw Error(Exit::input_output, witness.problem);
     if (!witness.present())
         throw Error(Exit::renderer_missing, fmt::format("{} is not installed", witness.title),
                     fmt::format("apt-get install {}", witness.package));

@@ -20,13 +20,15 @@ struct Witness {
     std::string name, title, package;
     const Adapter *adapter = nullptr; ///< null: our own tracer
     std::optional<InstalledRenderer> installed;
+    std::string problem; ///< why a program that is there cannot be used
 
     bool present() const { return !adapter || installed; }
 };
 
 /// Names in their order of appearance: tracer first.
 std::vector<std::string> witness_names();
-/// Looks in PATH for the asked ones; Error(usage) for an unknown name. A missing program is no error here.
+/// Looks in PATH for the asked ones; Error(usage) for an unknown name. A program that is
+/// missing, or does not even tell its version, is no error here.
 std::vector<Witness> find_witnesses(const std::vector<std::string> &names);
 
 struct RenderOptions {
