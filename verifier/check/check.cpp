@@ -136,9 +136,6 @@ private:
         return *std::ranges::find(result_.witnesses, w.name, &WitnessRecord::name);
     }
 
-    /// A renderer that is missing, has failed calibration or broke down has no vote any more.
-    bool votes(const Witness &w) { return record_of(w).problem.empty(); }
-
     std::optional<Testimony> ask(const Witness &w, const Experiment &e) {
         WitnessRecord &record = record_of(w);
         if (!record.present || broken_.contains(w.name)) return std::nullopt;

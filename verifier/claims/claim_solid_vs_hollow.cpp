@@ -16,7 +16,7 @@ namespace threefold {
 namespace {
 
 constexpr double clear_share = 0.98;      ///< of the (inner) radius: beyond it a shell bends rays without bound
-constexpr double axis_share = 0.3;        ///< the central slope is fitted within this share of the radius
+constexpr double axis_share = 0.3;        ///< of the clear radius: the central slope is fitted within it
 constexpr double landing_goal = 1e-4;     ///< of the radius: what tessellation may cost a landing point
 constexpr double finest_surface = 2.5e-6; ///< of the radius: finer spheres than this are not asked for
 
