@@ -27,7 +27,7 @@ TEST_P(EveryClaim, HoldsInTheTracerUnderBothPresets) {
     const TemporaryFolder folder;
     for (const Preset preset : {Preset::text, Preset::published}) {
         CheckRequest r = request(folder.path(), {GetParam()});
-        r.preset = preset;
+        r.presets = {preset};
         const CheckOutcome outcome = check(r);
         EXPECT_EQ(outcome.result.verdict, Verdict::holds) << outcome.result.summary;
         EXPECT_EQ(outcome.exit, Exit::holds);

@@ -52,13 +52,23 @@ std::vector<Claim> asked_claims(const Shop &shop, const std::vector<std::string>
 }
 
 void print_plan(const CheckRequest &request) {
-    const ClaimContext context{request.scenes, request.preset, request.assignments, request.quick};
-    for (const Claim &claim : request.claims) {
-        fmt::print("{}\n", claim.name);
-        for (const Experiment &e : claim.experiments(context))
-            fmt::print("  {:<16} scene {:<12} {} x {} px, {} replicates\n", e.name, e.record.scene,
-                       e.scene.camera.image_width_px(), e.scene.camera.image_height_px(), e.replicates);
+    for (const Preset preset : request.presets) {
+        const ClaimContext context{request.scenes, preset, request.assignments, request.quick};
+        for (const Claim &claim : request.claims) {
+            fmt::print("{}{}\n", claim.name, request.presets.size() > 1 ? fmt::format(" ({})", to_string(preset)) : "");
+            for (const Experiment &e : claim.experiments(context))
+                fmt::print("  {:<24} scene {:<20} {} x {} px, {} replicates\n", e.name, e.record.scene,
+                           e.scene.camera.image_width_px(), e.scene.camera.image_height_px(), e.replicates);
+        }
     }
+}
+
+std::vector<Preset> parse_presets(const std::string &name, bool quick) {
+    if (name == "both" || (name.empty() && !quick)) return {Preset::text, Preset::published};
+    if (name.empty()) return {Preset::text};
+    if (name != "text" && name != "published")
+        throw Error(Exit::usage, unknown_name("preset", name, {"text", "published", "both"}));
+    return {parse_preset(name)};
 }
 
 } // namespace
@@ -67,7 +77,7 @@ Exit command_check(const Shop &shop, const CheckCommand &command) {
     CheckRequest request;
     request.claims = asked_claims(shop, command.claims);
     request.scenes = shop.scenes;
-    request.preset = parse_preset(command.preset);
+    request.presets = parse_presets(command.preset, command.quick);
     for (const std::string &text : command.assignments) request.assignments.push_back(parse_assignment(text));
     request.quick = command.quick;
     request.seed = command.seed;

@@ -68,7 +68,7 @@ Exit command_render(const Shop &shop, const RenderRequest &request);
 struct CheckCommand {
     std::vector<std::string> claims;
     std::vector<std::string> with; ///< empty: all, and a missing one is no error
-    std::string preset = "text";
+    std::string preset; ///< "text", "published" or "both"; empty: both, or text in a quick run
     std::vector<std::string> assignments;
     bool quick = false, dry_run = false;
     std::filesystem::path folder = "threefold-report";

@@ -147,8 +147,8 @@ int run(int argc, char **argv, const std::vector<SceneRecipe> &scenes, const std
         ->allow_extra_args(false);
     check
         .add_option("--preset", check_command.preset,
-                    "Values of the study's wording (text) or of its scene files (published)")
-        ->capture_default_str();
+                    "Values of the study's wording (text), of its scene files (published), or both (the default; with "
+                    "--quick: text)");
     check
         .add_option("--set", check_command.assignments,
                     "Change a parameter of every scene that has it: name=value; repeatable")

@@ -54,16 +54,36 @@ struct TileComparison {
     std::optional<int> replicates_to_decide;
 };
 
+/// Something measured or predicted, drawn on a picture. Image positions in pixels, row 0 on top.
+struct Mark {
+    enum class Kind { line, arrow, circle, cross } kind = Kind::line;
+    Vec2 from_px{0}, to_px{0}; ///< ends of a line or arrow (its head at `to_px`); centre of a circle or cross is `from_px`
+    double radius_px = 0;      ///< of a circle
+    enum class Meaning { expected, measured } meaning = Meaning::measured;
+    std::string label; ///< may be empty; one label a group of marks is enough
+};
+
 /// A picture of the report, as the bytes of an 8-bit PNG.
 struct ReportPicture {
     enum class Kind { render, difference, map } kind = Kind::render;
     std::string experiment; ///< pictures of one experiment stand side by side
     std::string title;      ///< "POV-Ray", "POV-Ray minus tracer, x 50"
     std::string png;
+    std::vector<Mark> marks{};
+};
+
+/// Where a conclusion stops holding, by the closed form: the value of one parameter of its scene.
+struct FlipPoint {
+    std::string parameter; ///< as --set takes it, "glass.index"
+    std::string unit;      ///< of the value; empty: a plain number
+    double value = 0;
+    double here = 0;                ///< the parameter's value in this run
+    std::string meaning;            ///< "a solid orb inverts this plane only above it"
+    std::vector<std::string> bracket{}; ///< names of the experiments rendered just below and just above it
 };
 
 struct RenderRecord {
-    std::string experiment, witness;
+    std::string experiment, witness, preset;
     std::string folder; ///< relative to the run's folder: inputs, log, pictures
     std::string command;
     int width_px = 0, height_px = 0, replicates = 0, samples_per_pixel = 0;
@@ -83,9 +103,11 @@ struct ExperimentRecord {
 
 struct ClaimResult {
     std::string name, statement;
+    std::string preset; ///< under which it was judged
     Verdict verdict = Verdict::undecided;
     std::string summary;            ///< one or two sentences for an art historian
-    std::vector<std::string> notes; ///< e.g. where the conclusion flips; what a cut tree left out
+    std::vector<std::string> notes; ///< e.g. what exact optics says beyond the statement; what a cut tree left out
+    std::vector<FlipPoint> flips;
     std::vector<ExperimentRecord> experiments;
     std::vector<Row> rows;
     std::vector<TileComparison> tiles;
@@ -98,7 +120,7 @@ struct RunResult {
     std::string threefold_version;
     std::string started; ///< UTC, ISO 8601
     std::string command; ///< what repeats this run
-    std::string preset;
+    std::string preset; ///< "text", "published", or "both": then every claim is there twice
     bool quick = false;
     std::map<std::string, std::string> assignments;            ///< --set
     std::vector<std::pair<std::string, std::string>> versions; ///< libraries and renderers

@@ -30,6 +30,7 @@ constexpr int tile_px = 8;
 
 struct PlannedClaim {
     const Claim *claim;
+    ClaimContext context;
     std::vector<Experiment> experiments;
 };
 
@@ -77,7 +78,7 @@ void require_known(const std::vector<Assignment> &assignments, const std::vector
 class Run {
 public:
     explicit Run(const CheckRequest &request)
-        : request_(request), context_{request.scenes, request.preset, request.assignments, request.quick} {
+        : request_(request) {
         for (const Witness &w : request.witnesses) {
             WitnessRecord record;
             record.name = w.name;
@@ -100,15 +101,18 @@ public:
     CheckOutcome operator()() {
         const auto start = Clock::now();
         result_.started = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
-        result_.preset = to_string(request_.preset);
+        result_.preset = request_.presets.size() > 1 ? "both" : to_string(request_.presets.front());
         result_.quick = request_.quick;
         for (const Assignment &a : request_.assignments) result_.assignments[a.name] = a.value;
 
         const std::vector<PlannedClaim> plan = make_plan();
         make_folder(request_.folder); // not before the scenes are known to be good
+        std::vector<ClaimResult> calibrations;
         for (const PlannedClaim &planned : plan) {
             result_.claims.push_back(judge_claim(planned));
-            if (planned.claim->name == calibration_name) take_votes_away(result_.claims.back());
+            if (planned.claim->name != calibration_name) continue;
+            calibrations.push_back(result_.claims.back());
+            take_votes_away(calibrations);
         }
         conclude();
         result_.seconds = seconds_since(start);
@@ -120,8 +124,13 @@ private:
 
     std::vector<PlannedClaim> make_plan() {
         std::vector<PlannedClaim> plan;
-        for (const Claim &claim : request_.claims) plan.push_back({&claim, claim.experiments(context_)});
-        std::ranges::stable_partition(plan, [](const PlannedClaim &p) { return p.claim->name == calibration_name; });
+        for (const bool calibrating : {true, false})
+            for (const Preset preset : request_.presets)
+                for (const Claim &claim : request_.claims) {
+                    if ((claim.name == calibration_name) != calibrating) continue;
+                    const ClaimContext context{request_.scenes, preset, request_.assignments, request_.quick};
+                    plan.push_back({&claim, context, claim.experiments(context)});
+                }
         require_known(request_.assignments, plan);
         for (PlannedClaim &p : plan)
             for (Experiment &e : p.experiments) {
@@ -136,7 +145,7 @@ private:
         return *std::ranges::find(result_.witnesses, w.name, &WitnessRecord::name);
     }
 
-    std::optional<Testimony> ask(const Witness &w, const Experiment &e) {
+    std::optional<Testimony> ask(const Witness &w, const Experiment &e, Preset preset) {
         WitnessRecord &record = record_of(w);
         if (!record.present || broken_.contains(w.name)) return std::nullopt;
         const double done = finished_[w.name]++;
@@ -157,6 +166,7 @@ private:
         try {
             Testimony t{&w, render(w, job, {request_.folder, e.name, request_.tracer, request_.time_limit, tell})};
             t.rendered.record.experiment = e.name;
+            t.rendered.record.preset = to_string(preset);
             if (!t.rendered.record.from_cache) {
                 record.seconds += t.rendered.record.seconds;
                 result_.renderer_seconds += t.rendered.record.seconds;
@@ -187,12 +197,13 @@ private:
         ClaimResult result;
         result.name = planned.claim->name;
         result.statement = planned.claim->statement;
+        result.preset = to_string(planned.context.preset);
         bool complete = true;
         for (const Experiment &e : planned.experiments) {
             result.experiments.push_back(e.record);
             std::vector<Testimony> testimonies;
             for (const Witness &w : request_.witnesses) {
-                auto testimony = ask(w, e);
+                auto testimony = ask(w, e, planned.context.preset);
                 complete = complete && testimony && record_of(w).problem.empty();
                 if (testimony) testimonies.push_back(*std::move(testimony));
             }
@@ -217,8 +228,9 @@ private:
             if (counts(tiles.witness, tiles.versus)) result.verdict = all_of(result.verdict, tiles.verdict);
         if (std::ranges::all_of(result_.witnesses, [](const WitnessRecord &w) { return w.problem.empty(); }))
             blame_the_odd_one_out(result);
-        if (planned.claim->summary) result.summary = planned.claim->summary(context_, result.verdict);
-        if (planned.claim->notes) result.notes = planned.claim->notes(context_);
+        if (planned.claim->summary) result.summary = planned.claim->summary(planned.context, result.verdict);
+        if (planned.claim->notes) result.notes = planned.claim->notes(planned.context);
+        if (planned.claim->flips) result.flips = planned.claim->flips(planned.context);
         return result;
     }
 
@@ -303,6 +315,7 @@ private:
             means.push_back(mean(t.rendered.images));
             result.pictures.push_back(
                 {ReportPicture::Kind::render, e.name, t.witness->title, encode_png_preview(means.back())});
+            if (e.draw) result.pictures.back().marks = e.draw(means.back(), e.scene.camera);
         }
         if (!e.tile_budget) return;
         for (std::size_t i = 0; i < testimonies.size(); ++i)
@@ -325,12 +338,13 @@ private:
             }
     }
 
-    void take_votes_away(const ClaimResult &calibration) {
+    void take_votes_away(const std::vector<ClaimResult> &calibrations) {
         for (WitnessRecord &w : result_.witnesses) {
             if (!w.present || broken_.contains(w.name)) continue;
             std::optional<Verdict> verdict;
-            for (const Row &row : calibration.rows)
-                if (row.witness == w.name) verdict = all_of(verdict.value_or(Verdict::holds), row.verdict);
+            for (const ClaimResult &calibration : calibrations)
+                for (const Row &row : calibration.rows)
+                    if (row.witness == w.name) verdict = all_of(verdict.value_or(Verdict::holds), row.verdict);
             if (verdict) w.calibrated = *verdict == Verdict::holds;
             if (verdict != Verdict::holds)
                 w.problem =
@@ -342,10 +356,13 @@ private:
     void conclude() {
         result_.verdict = Verdict::holds;
         std::vector<std::string> failing, open, blamed, problems;
+        const auto named = [this](const ClaimResult &c) {
+            return request_.presets.size() > 1 ? fmt::format("{} ({})", c.name, c.preset) : c.name;
+        };
         for (const ClaimResult &c : result_.claims) {
             result_.verdict = all_of(result_.verdict, c.verdict);
-            if (c.verdict == Verdict::fails) failing.push_back(c.name);
-            if (c.verdict == Verdict::undecided) open.push_back(c.name);
+            if (c.verdict == Verdict::fails) failing.push_back(named(c));
+            if (c.verdict == Verdict::undecided) open.push_back(named(c));
             for (const std::string &b : c.blamed)
                 if (std::ranges::count(blamed, b) == 0) blamed.push_back(b);
         }
@@ -383,7 +400,6 @@ private:
     }
 
     const CheckRequest &request_;
-    ClaimContext context_;
     RunResult result_;
     Exit exit_ = Exit::holds;
     double experiments_ = 0;

@@ -20,7 +20,7 @@ struct CheckRequest {
     std::vector<Claim> claims; ///< calibration is put first if it is not among them
     std::vector<Witness> witnesses;
     std::vector<SceneRecipe> scenes;
-    Preset preset = Preset::text;
+    std::vector<Preset> presets{Preset::text}; ///< every claim is judged under each
     std::vector<Assignment> assignments;
     bool quick = false;
     std::uint64_t seed = 1;

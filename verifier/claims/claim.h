@@ -52,6 +52,8 @@ struct Experiment {
     std::function<std::vector<Reading>(const Image &, const Camera &camera)> measure;
     /// Tolerance on the mean of a tile (absolute radiance); empty function: pictures are not compared tile by tile.
     std::function<std::vector<BudgetItem>(const Accuracy &, const Accuracy &)> tile_budget;
+    /// What was measured on the picture, and what was expected, to be drawn on it in the report.
+    std::function<std::vector<Mark>(const Image &, const Camera &camera)> draw;
 };
 
 /// Under what a claim is checked.
@@ -70,9 +72,12 @@ struct Claim {
     std::string name;
     std::string statement;
     std::function<std::vector<Experiment>(const ClaimContext &)> experiments;
-    /// One or two sentences for an art historian, by verdict; and where the conclusion flips.
+    /// One or two sentences for an art historian, by verdict.
     std::function<std::string(const ClaimContext &, Verdict)> summary;
     std::function<std::vector<std::string>(const ClaimContext &)> notes;
+    /// Where the conclusion flips, by the closed form at the scene's own parameters (claims/flip.h). `experiments` holds
+    /// the renders on both sides.
+    std::function<std::vector<FlipPoint>(const ClaimContext &)> flips;
     /// The fault that must make it fail when one renderer's export has it.
     Fault mutant;
 };

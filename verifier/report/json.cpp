@@ -140,13 +140,20 @@ Json from_picture(const ReportPicture &p) {
     return {{"kind", to_string(p.kind)}, {"experiment", text(p.experiment)}, {"title", text(p.title)}};
 }
 
+Json from_flip(const FlipPoint &f) {
+    return {{"parameter", text(f.parameter)}, {"unit", text(f.unit)},       {"value", real(f.value)},
+            {"here", real(f.here)},           {"meaning", text(f.meaning)}, {"bracket", strings(f.bracket)}};
+}
+
 Json from_claim(const ClaimResult &claim) {
     return {
         {"name", text(claim.name)},
         {"statement", text(claim.statement)},
+        {"preset", text(claim.preset)},
         {"verdict", to_string(claim.verdict)},
         {"summary", text(claim.summary)},
         {"notes", strings(claim.notes)},
+        {"flips", list_of(claim.flips, from_flip)},
         {"blamed", strings(claim.blamed)},
         {"experiments", list_of(claim.experiments, from_experiment)},
         {"rows", list_of(claim.rows, from_row)},
@@ -159,6 +166,7 @@ Json from_render(const RenderRecord &r) {
     return {
         {"experiment", text(r.experiment)},
         {"witness", text(r.witness)},
+        {"preset", text(r.preset)},
         {"folder", text(r.folder)},
         {"command", text_or_null(r.command)},
         {"width_px", r.width_px},
