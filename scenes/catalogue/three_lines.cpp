@@ -18,7 +18,6 @@ constexpr double tiny_mm = 1e-9, huge_mm = 1e9;
 /// that single precision keeps them apart.
 constexpr double grid_gap_share = 1e-4;
 
-constexpr double soft_reach = 2; ///< half-widths from a soft line's centre to where it ends
 constexpr int texels_per_half_width = 32;
 constexpr int most_texels = 8192;
 
@@ -49,12 +48,6 @@ struct LineFrame {
 LineFrame line_frame(const Parameters &p) {
     const double angle = p.number("lines.angle_deg") * std::numbers::pi / 180;
     return {{std::cos(angle), std::sin(angle), 0}, {-std::sin(angle), std::cos(angle), 0}};
-}
-
-/// 1 on a soft line's centre, 1/2 at its half-width, 0 from twice that on.
-double darkness(double from_centre_mm, double half_width_mm) {
-    const double share = std::abs(from_centre_mm) / (soft_reach * half_width_mm);
-    return share < 1 ? std::pow(std::cos(share * std::numbers::pi / 2), 2) : 0;
 }
 
 /// One texel wide, `texels` high; `dark(across_mm)` for the three colours, across_mm from the middle and upwards.
@@ -115,8 +108,8 @@ Object soft_lines(const Parameters &p) {
     const double half_width = p.number("lines.half_width_mm"), apart = p.number("lines.shift_mm") * across.y;
     const double half_extent = std::abs(apart) + (soft_reach + 0.5) * half_width;
     const auto paint = across_texture(p, half_extent, texels_for(half_extent, half_width), [&](double from_middle_mm) {
-        return Rgb(darkness(from_middle_mm - apart, half_width), darkness(from_middle_mm, half_width),
-                   darkness(from_middle_mm + apart, half_width));
+        return Rgb(soft_darkness(from_middle_mm - apart, half_width), soft_darkness(from_middle_mm, half_width),
+                   soft_darkness(from_middle_mm + apart, half_width));
     });
     return {
         "three soft lines",
@@ -146,6 +139,11 @@ Mesh ribbon(const std::vector<Vec3> &points, double half_width_mm, const Surface
 }
 
 } // namespace
+
+double soft_darkness(double from_centre_mm, double half_width_mm) {
+    const double share = std::abs(from_centre_mm) / (soft_reach * half_width_mm);
+    return share < 1 ? std::pow(std::cos(share * std::numbers::pi / 2), 2) : 0;
+}
 
 Specs three_lines_orb_parameters(bool hollow) {
     Specs specs = orb_parameters();
@@ -208,7 +206,7 @@ std::vector<Object> bent_lines_objects(const Parameters &p) {
     if (is_probe(p)) {
         const double reach = soft_reach * half_width;
         const auto paint = across_texture(p, reach, texels_for(reach, half_width), [&](double from_middle_mm) {
-            return Rgb(0, darkness(from_middle_mm, half_width), 0);
+            return Rgb(0, soft_darkness(from_middle_mm, half_width), 0);
         });
         return {{"soft bent line", ribbon(way, reach, Emissive{paint})}};
     }

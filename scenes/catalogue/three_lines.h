@@ -20,4 +20,8 @@ std::vector<Object> three_lines_objects(const Parameters &p);
 /// probe is the bent line alone.
 std::vector<Object> bent_lines_objects(const Parameters &p);
 
+/// Of the probe, from 0 to 1: 1 on a line's centre, 1/2 at its half-width, 0 from `soft_reach` half-widths on.
+double soft_darkness(double from_centre_mm, double half_width_mm);
+inline constexpr double soft_reach = 2;
+
 } // namespace threefold
