@@ -10,6 +10,10 @@ std::vector<SceneRecipe> built_in_scenes() {
         hollow_scene(),
         furnace_scene(),
         soft_light_scene(),
+        three_lines_hollow_scene(),
+        three_lines_solid_scene(),
+        three_lines_bent_scene(),
+        three_lines_setup_scene(),
     };
 }
 

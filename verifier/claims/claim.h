@@ -90,6 +90,7 @@ Claim claim_energy();
 Claim claim_solid_vs_hollow();
 Claim claim_rim_reads_wall();
 Claim claim_soft_light();
+Claim claim_three_lines();
 
 /// `name=value` for whatever fmt can print, with all digits.
 Assignment assign(std::string_view name, double value);

@@ -16,6 +16,7 @@ std::vector<Claim> built_in_claims() {
         claim_solid_vs_hollow(),
         claim_rim_reads_wall(),
         claim_soft_light(),
+        claim_three_lines(),
     };
 }
 
