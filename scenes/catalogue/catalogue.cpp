@@ -9,6 +9,7 @@ std::vector<SceneRecipe> built_in_scenes() {
         solid_scene(),
         hollow_scene(),
         furnace_scene(),
+        folds_scene(),
     };
 }
 

@@ -12,5 +12,6 @@ SceneRecipe calibration_scene();
 SceneRecipe solid_scene();
 SceneRecipe hollow_scene();
 SceneRecipe furnace_scene();
+SceneRecipe folds_scene();
 
 } // namespace threefold

@@ -89,6 +89,7 @@ Claim claim_calibration();
 Claim claim_energy();
 Claim claim_solid_vs_hollow();
 Claim claim_rim_reads_wall();
+Claim claim_folds();
 
 /// `name=value` for whatever fmt can print, with all digits.
 Assignment assign(std::string_view name, double value);

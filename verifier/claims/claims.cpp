@@ -15,6 +15,7 @@ std::vector<Claim> built_in_claims() {
         claim_energy(),
         claim_solid_vs_hollow(),
         claim_rim_reads_wall(),
+        claim_folds(),
     };
 }
 
