@@ -25,7 +25,7 @@ FoldSearch miss_search(const ClaimContext &context) {
 
 /// For the eye alone.
 Experiment view(const ClaimContext &context) {
-    const std::string size = context.quick ? "160" : "320";
+    const std::string size = context.quick ? "128" : "320";
     Experiment e = context.experiment("folds-view", "what one sees: a robe with five folds behind a hollow orb",
                                       "folds", {assign("image.width_px", size), assign("image.height_px", size)},
                                       {assign("robe.surface", "cloth")});
@@ -43,6 +43,7 @@ Experiment edges(const ClaimContext &context) {
     plan.name = "folds-edges";
     plan.title = "the folds' edges where they cross the orb's upper right boundary";
     plan.radius_px = context.quick ? 160 : 240;
+    plan.pixel_rows = true;
     plan.conclusions = {
         {"break of the four aimed folds is less than the eye resolves", aimed_folds, Relation::below, criterion},
         {"break of the leftmost fold is more than the eye resolves", {leftmost_fold}, Relation::above, criterion},

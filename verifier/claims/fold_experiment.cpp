@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <numbers>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -17,11 +19,16 @@ namespace threefold {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double outside_from = 1.02, outside_to = 1.12; ///< of the radius: where the edges' course outside is read
+constexpr double outside_from = 1.02, outside_to = 1.25; ///< of the radius: where the edges' course outside is read
 constexpr double orb_share = 0.6;                        ///< of the film's width: room for the folds beside the orb
 constexpr double greatest_window_px = 8;                 ///< to both sides of an edge
 constexpr double window_share = 0.45;                    ///< of the way to the next edge
 constexpr double edge_error_px = 0.006;                  ///< of a reading after the means over circles and replicates
+
+constexpr double coarsest_surface = 2e-5;  ///< of the radius: how far tessellated spheres may stray
+constexpr double wall_error = 4e-3;        ///< of the wall, likewise
+constexpr double finest_surface = 2.5e-6;  ///< of the radius: finer spheres are not asked for
+constexpr double resolution_arcmin = 0.03; ///< the least difference of a jump that matters here, at the eye
 
 /// Everything fixed before rendering.
 struct FoldPicture {
@@ -30,6 +37,7 @@ struct FoldPicture {
     std::vector<double> inside_mm, outside_mm; ///< impact parameters of the circles
     double bright = 0, dark = 0;               ///< radiance of the robe and of its folds
     double mm_per_px = 0;                      ///< on the robe
+    double mm_per_minute = 0;                  ///< on the robe: what a minute of arc at the eye covers
     double radius_px = 0;
 };
 
@@ -155,6 +163,8 @@ std::vector<BudgetItem> jump_budget(const FoldPicture &p, std::size_t fold, cons
          fmt::format("distance of the rendered spheres from the true ones, times an answer of {:.3g}", 1 + answer)},
         {"quantisation", a.radiance_step / (p.bright - p.dark) * 2 * greatest_window_px * p.mm_per_px,
          "shares of two known radiances"},
+        {"resolution", p.mm_per_minute * resolution_arcmin,
+         fmt::format("{:g} minutes of arc at the eye: the least difference that matters here", resolution_arcmin)},
         {"arithmetic", 4 * (1 + answer) * robe_per_orb * a.rounding_mm, "rounding of positions"},
     };
 }
@@ -211,6 +221,7 @@ Experiment fold_experiment(const ClaimContext &context, const FoldPlan &plan) {
     p.outside_mm = even_steps(outside_from * radius, outside_to * radius,
                               std::clamp(static_cast<int>((outside_to - outside_from) * plan.radius_px), 6, 80));
     p.mm_per_px = 2 * film_half_width(e.scene.camera) / e.scene.camera.width_px * eye_to_robe_mm(e);
+    p.mm_per_minute = eye_to_robe_mm(e) * std::numbers::pi / (180 * 60);
     p.bright = flat_radiance(card_of(e.scene).surface);
     for (const Object &object : e.scene.objects)
         if (const Mesh *mesh = std::get_if<Mesh>(&object.shape)) p.dark = flat_radiance(mesh->surface);
@@ -219,9 +230,10 @@ Experiment fold_experiment(const ClaimContext &context, const FoldPlan &plan) {
     p.scene = e.scene;
 
     e.sampling = Sampling::box;
-    e.samples_per_pixel = 16;
+    e.samples_per_pixel = plan.samples_per_pixel;
     e.shift_replicates = true; // the pixels' grid meets the edges elsewhere in every replicate
-    e.surface_tolerance_mm = 2e-5 * radius;
+    e.surface_tolerance_mm =
+        std::max(std::min(coarsest_surface * radius, wall_error * p.folds.orb.optics.wall_mm), finest_surface * radius);
     e.predict = [p, plan](const Accuracy &a) {
         std::vector<Expected> expected;
         for (const std::size_t k : plan.folds) {
@@ -229,6 +241,7 @@ Experiment fold_experiment(const ClaimContext &context, const FoldPlan &plan) {
             const double jump = fold_jump(p.folds, p.folds.folds[k], p.inside_mm).value_or(nan);
             std::vector<BudgetItem> budget = jump_budget(p, k, a);
             expected.push_back({jump_name(k), "mm", Relation::equal, jump, budget, true});
+            if (!plan.pixel_rows) continue;
             for (BudgetItem &item : budget) item.value /= p.mm_per_px;
             expected.push_back({jump_name_px(k), "px", Relation::equal, jump / p.mm_per_px, budget});
         }

@@ -23,7 +23,9 @@ struct FoldPlan {
     std::vector<Assignment> defaults{}, fixed{}; ///< on top of what the measuring needs
     double radius_px = 160;                      ///< of the orb in the picture
     std::vector<std::size_t> folds{0, 1, 2, 3, 4};
-    bool rows = true; ///< each fold's jump is a row (mm and px); else only the conclusions are
+    int samples_per_pixel = 25;
+    bool rows = true;        ///< each fold's jump is a row; else only the conclusions are
+    bool pixel_rows = false; ///< also in pixels of the picture
     std::vector<FoldConclusion> conclusions{};
 };
 

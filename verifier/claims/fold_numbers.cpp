@@ -19,7 +19,8 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double robe_share = 4; ///< half width of the robe over the orb's image on it: bent rays still meet it
 constexpr int circles = 16;      ///< of the ring inside; always as many, so that closed form and picture mean the same
-constexpr double bracket_radius_px = 800;
+constexpr double bracket_radius_px = 700;
+constexpr double bracket_width_deg = 1.2; ///< of the folds beside a flip: two near edges, a small picture
 
 double number_in(const Experiment &e, const std::string &name) { return std::stod(e.record.parameters.at(name)); }
 
@@ -94,7 +95,7 @@ std::optional<double> first_root(const std::function<double(double)> &f, double 
         return by_factors ? low * std::pow(high / low, share) : low + (high - low) * share;
     };
     for (int k = 0; k < steps; ++k)
-        if (const auto root = root_between(f, at(k), at(k + 1))) return root;
+        if (const auto root = root_between(f, std::min(at(k), at(k + 1)), std::max(at(k), at(k + 1)))) return root;
     return std::nullopt;
 }
 
@@ -116,12 +117,14 @@ std::vector<Experiment> fold_brackets(const ClaimContext &context, const FoldSea
         FoldPlan plan;
         plan.name = fmt::format("{}-{}", stem, side.label);
         plan.title = fmt::format("{} {} the flip at {:.4g}", search.parameter, side.label, flip);
-        plan.fixed = joined(search.fixed, {assign(search.parameter, side.value)});
+        plan.fixed =
+            joined(search.fixed, {assign(search.parameter, side.value), assign("folds.width_deg", bracket_width_deg)});
         const FoldNumbers n = fold_numbers(context, plan.fixed);
         const std::size_t fold = most_broken_fold(n, search.folds);
         plan.folds = {fold};
         plan.rows = false;
         plan.radius_px = bracket_radius_px;
+        plan.samples_per_pixel = 16;
         const bool under = greatest_jump_mm(n, {fold}) < n.criterion_mm;
         plan.conclusions = {{fmt::format("break of {} is {} what the eye resolves", name_of_fold(fold),
                                          under ? "less than" : "more than"),

@@ -16,7 +16,7 @@ namespace threefold {
 /// Folds are numbered from the left, from 0. The first is not aimed at the orb's centre, the others are.
 inline constexpr std::size_t leftmost_fold = 0;
 inline const std::vector<std::size_t> aimed_folds{1, 2, 3, 4};
-inline constexpr double ring_share = 0.02; ///< of the radius: a jump is the mean over the ring that ends at the circle
+inline constexpr double ring_share = 0.05; ///< of the radius: a jump is the mean over the ring that ends at the circle
 
 /// "the leftmost fold", "fold 2".
 std::string name_of_fold(std::size_t fold);
@@ -53,7 +53,7 @@ struct FoldSearch {
     std::string parameter;
     std::vector<Assignment> fixed{};
     std::vector<std::size_t> folds{};
-    double low = 0, high = 0; ///< from the side where nothing is noticed
+    double low = 0, high = 0; ///< from the side where nothing is noticed; high may lie below low
     int steps = 24;
     bool by_factors = false; ///< equal factors instead of even steps
 };
@@ -64,7 +64,8 @@ std::vector<Experiment> fold_brackets(const ClaimContext &context, const FoldSea
                                       double flip);
 std::vector<std::string> bracket_names(const std::string &stem);
 
-/// The first value at which f changes its sign on a grid from `low` to `high`: even, or by equal factors.
+/// The first value at which f changes its sign on a grid from `low` to `high` (which may lie below it): even, or by
+/// equal factors.
 std::optional<double> first_root(const std::function<double(double)> &f, double low, double high, int steps,
                                  bool by_factors);
 
