@@ -111,10 +111,10 @@ Claim claim_shift() {
         for (const double shift : shifts_mm(false)) {
             const double jump = greatest_jump_mm(numbers_at(context, shift), aimed_folds);
             breaks.push_back(std::isnan(jump) ? fmt::format("{:g} mm: a fold is not seen on the ring", shift)
-                                              : fmt::format("{:g} mm: {:.3g} mm", shift, jump));
+                                              : fmt::format("{:g} mm: {:.3g} mm", shift, jump < 1e-9 ? 0 : jump));
         }
         std::vector<std::string> notes{
-            fmt::format("Greatest break of the aimed folds by the closed form, {} by {}.", axis_of(context).what,
+            fmt::format("Greatest break of the aimed folds by the closed form, {} by: {}.", axis_of(context).what,
                         fmt::join(breaks, ", ")),
             "The study's text moves the orb to the left, its published files move the robe to the right; the break "
             "differs, since a shift of the orb shows enlarged on the robe behind it. Each preset moves what the study "

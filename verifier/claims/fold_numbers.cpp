@@ -20,7 +20,9 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double robe_share = 4; ///< half width of the robe over the orb's image on it: bent rays still meet it
 constexpr int circles = 16;      ///< of the ring inside; always as many, so that closed form and picture mean the same
 constexpr double bracket_radius_px = 700;
-constexpr double bracket_width_deg = 1.2; ///< of the folds beside a flip: two near edges, a small picture
+// A fold beside a flip is narrow, so that its two edges fit a small picture; the mean jump of both differs from that of
+// the wider fold by the cosine of half its angle: less than 0.1 % up to 5 degrees.
+constexpr double narrow_deg = 1.2, wide_deg = 5;
 
 double number_in(const Experiment &e, const std::string &name) { return std::stod(e.record.parameters.at(name)); }
 
@@ -117,8 +119,10 @@ std::vector<Experiment> fold_brackets(const ClaimContext &context, const FoldSea
         FoldPlan plan;
         plan.name = fmt::format("{}-{}", stem, side.label);
         plan.title = fmt::format("{} {} the flip at {:.4g}", search.parameter, side.label, flip);
-        plan.fixed =
-            joined(search.fixed, {assign(search.parameter, side.value), assign("folds.width_deg", bracket_width_deg)});
+        plan.fixed = joined(search.fixed, {assign(search.parameter, side.value)});
+        if (const double own = std::stod(fold_numbers(context, plan.fixed).parameters.at("folds.width_deg"));
+            own > narrow_deg && own <= wide_deg)
+            plan.fixed = joined(plan.fixed, {assign("folds.width_deg", narrow_deg)});
         const FoldNumbers n = fold_numbers(context, plan.fixed);
         const std::size_t fold = most_broken_fold(n, search.folds);
         plan.folds = {fold};
