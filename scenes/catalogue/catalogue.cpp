@@ -14,6 +14,7 @@ std::vector<SceneRecipe> built_in_scenes() {
         three_lines_solid_scene(),
         three_lines_bent_scene(),
         three_lines_setup_scene(),
+        folds_scene(),
     };
 }
 

@@ -17,5 +17,6 @@ SceneRecipe three_lines_hollow_scene();
 SceneRecipe three_lines_solid_scene();
 SceneRecipe three_lines_bent_scene();
 SceneRecipe three_lines_setup_scene();
+SceneRecipe folds_scene();
 
 } // namespace threefold
