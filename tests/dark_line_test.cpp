@@ -68,7 +68,7 @@ TEST(DarkLine, IsReadOnAnyScanLine) {
     // Across = -(x - 32) / sqrt 2 - (30 - 32) / sqrt 2 = 2.
     EXPECT_NEAR(centre->place, 34 - 2 * std::sqrt(2.0), 1e-3);
     EXPECT_NEAR(centre->image_px.x, centre->place, 1e-9);
-    EXPECT_EQ(centre->image_px.y, 30);
+    EXPECT_NEAR(centre->image_px.y, 30, 1e-9);
 }
 
 TEST(DarkLine, HasNoCentreWhereItLeavesThePath) {

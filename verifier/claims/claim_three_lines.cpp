@@ -32,6 +32,7 @@ constexpr double film_orb_share = 0.8;     ///< of the film's width that the orb
 constexpr double pixels_per_half_width = 4;
 constexpr int margin_px = 6, most_px = 640;
 constexpr double reading_px = 0.01;     ///< cubic convolution errs by a tenth of it, see tests/dark_line_test.cpp
+constexpr double finest_surface = 7e-6; ///< of the radius: finer spheres cost seconds and move no verdict
 constexpr double line_length_mm = 1000; ///< half of it: no line ends in sight
 constexpr double arcmin_per_rad = 60 * 180 / std::numbers::pi;
 
@@ -264,7 +265,7 @@ Experiment measured_probe(const ClaimContext &context, std::string name, std::st
     e.shift_replicates = true;
     const optics::Orb<double> &orb = asked.view.orb.optics;
     e.surface_tolerance_mm =
-        std::max(orb.is_solid() ? 2.5e-5 * orb.outer_mm : 1.5e-3 * orb.wall_mm, 2.5e-6 * orb.outer_mm);
+        std::max(orb.is_solid() ? 2.5e-5 * orb.outer_mm : 1.5e-3 * orb.wall_mm, finest_surface * orb.outer_mm);
     const LinesAsked copy = asked;
     e.measure = [copy](const Image &image, const Camera &camera) { return measure(copy, image, camera); };
     e.draw = [copy](const Image &image, const Camera &camera) { return draw(copy, image, camera); };

@@ -15,7 +15,7 @@ namespace threefold {
 namespace {
 
 constexpr double search_rad = 1.4; ///< to either side: on a circle a straight line is met once within a right angle
-constexpr int strips = 32;         ///< of a soft line's width, for its centre of darkness
+constexpr int strips = 24;         ///< of a soft line's width, for its centre of darkness
 
 std::optional<Vec3> landing_of(const LinesView &view, const Ray &ray) {
     if (impact_parameter(ray, view.orb.centre_mm) >= view.orb.optics.outer_mm)
