@@ -4,28 +4,33 @@
 #include <cmath>
 #include <numbers>
 
-namespace threefold::figure {
+namespace threefold {
 
 namespace {
 
-/// `elevation` is measured from straight down; the study's travel is (-sin e sin a, -cos e, -sin e cos a).
-Vec3 travel(double elevation_deg, double azimuth_deg) {
-    const double e = elevation_deg * std::numbers::pi / 180, a = azimuth_deg * std::numbers::pi / 180;
-    return {std::sin(e) * std::cos(a), -std::cos(e), -std::sin(e) * std::sin(a)};
+/// The study's files turn a light by both angles; in their frame it travels along (-sin p sin a, -cos p, -sin p cos a),
+/// and their x is our z, their z our -x.
+Directional light(double polar_deg, double azimuth_deg, double irradiance) {
+    const double p = polar_deg * std::numbers::pi / 180, a = azimuth_deg * std::numbers::pi / 180;
+    return {{std::sin(p) * std::cos(a), -std::cos(p), -std::sin(p) * std::sin(a)}, Rgb(irradiance)};
 }
 
 } // namespace
 
-std::vector<Directional> study_lights() {
-    constexpr double elevations_deg[]{32.5, 35.5, 38.5, 41.5, 44.5};
-    constexpr int azimuths = 20;
+std::vector<Directional> key_lights() {
+    constexpr int polar_angles = 5, azimuths = key_light_directions / polar_angles;
     std::vector<Directional> lights;
-    for (const double elevation : elevations_deg)
-        for (int i = 0; i < azimuths; ++i)
-            lights.push_back({travel(elevation, 55 + 30.0 * i / (azimuths - 1)), Rgb(0.0416)});
-    lights.push_back({travel(40, 90), Rgb(0.3)});
-    lights.push_back({Vec3(0, 0, -1), Rgb(0.6)});
+    for (int i = 0; i < polar_angles; ++i)
+        for (int j = 0; j < azimuths; ++j)
+            lights.push_back(light(32.5 + 3 * i, 55 + 30.0 * j / (azimuths - 1), key_light_irradiance));
     return lights;
 }
 
-} // namespace threefold::figure
+std::vector<Directional> study_lights() {
+    std::vector<Directional> lights = key_lights();
+    lights.push_back(light(40, 90, side_light_irradiance));
+    lights.push_back({{0, 0, -1}, Rgb(front_light_irradiance)});
+    return lights;
+}
+
+} // namespace threefold
