@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <glm/vec4.hpp>
+
 namespace threefold::figure {
 
 namespace {
