@@ -13,9 +13,9 @@ Camera side_camera(const Parameters &p) {
     const figure::Standpoint view = standpoint(p);
     const double length = view.eye_mm.z - view.plane_z_mm;
     Camera camera;
-    camera.eye_mm = view.eye_mm + length * Vec3(-0.62, 0.05, -0.06);
-    camera.target_mm = view.eye_mm + length * Vec3(0.02, -0.06, -0.56);
-    camera.horizontal_fov_deg = 74;
+    camera.eye_mm = view.eye_mm + length * Vec3(-0.85, 0.10, 0.05);
+    camera.target_mm = view.eye_mm + length * Vec3(0.0, -0.10, -0.35);
+    camera.horizontal_fov_deg = 76;
     camera.width_px = static_cast<int>(p.number("image.width_px"));
     camera.height_px = static_cast<int>(p.number("image.height_px"));
     return camera;

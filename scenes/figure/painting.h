@@ -59,7 +59,6 @@ private:
 
     Outline body_, chest_, hair_, face_, cuff_;
     std::vector<Vec2> left_band_, right_band_, neck_band_;
-    std::vector<Vec2> parting_left_, parting_right_;
 };
 
 /// Height that the five folds add.

@@ -6,7 +6,7 @@ namespace threefold::figure {
 
 namespace {
 
-constexpr Rgb skin{0.50, 0.34, 0.175}, skin_shadow{0.15, 0.075, 0.032}, linen{0.34, 0.31, 0.25}, linen_dark{0.05, 0.042, 0.034};
+constexpr Rgb skin{0.44, 0.285, 0.135}, skin_shadow{0.085, 0.038, 0.014}, linen{0.34, 0.31, 0.25}, linen_dark{0.05, 0.042, 0.034};
 
 /// A finger or a limb: round, along a line of points, its radius changing from end to end.
 struct Limb {
@@ -34,8 +34,8 @@ std::vector<Limb> limbs() {
         return curve_through(places, false, 4);
     };
     return {
-        {line({{78, 1010}, {96, 930}, {112, 860}, {118, 800}}), 0.150, 0.150, 0.035, 0.20},      // wrist
-        {line({{108, 890}, {116, 830}, {108, 780}}), 0.165, 0.150, 0.045, 0.05},                 // palm
+        {line({{100, 1010}, {102, 950}, {110, 880}, {118, 810}}), 0.112, 0.128, 0.035, 0.25},      // wrist
+        {line({{122, 890}, {118, 830}, {108, 780}}), 0.128, 0.138, 0.045, 0.05},                 // palm
         {line({{150, 850}, {172, 800}, {164, 745}, {151, 700}}), 0.085, 0.046, 0.050, 0.18},     // thumb
         {line({{100, 790}, {92, 720}, {104, 650}, {122, 590}}), 0.072, 0.040, 0.050, 0.25},      // middle finger
         {line({{72, 790}, {72, 715}, {88, 655}, {124, 603}}), 0.075, 0.036, 0.075, 0.0},         // index
@@ -49,9 +49,9 @@ std::vector<Limb> limbs() {
 void Painting::paint_sleeve(Vec2 p, Spot &spot) const {
     const double depth = cuff_.depth(p);
     if (depth < -0.02) return;
-    const Vec2 q = p - sketch(20, 1000);
+    const Vec2 q = p - sketch(-70, 985);
     const double turn = std::atan2(q.y, q.x), r = glm::length(q);
-    const double ridge = std::sin(16 * r + 3 * turn + 2.5 * noise(p * 5.0, 2, 60));
+    const double ridge = std::sin(34 * r + 5 * turn + 2.5 * noise(p * 5.0, 2, 60));
     const double light = std::clamp(0.45 + 0.45 * ridge + 0.3 * noise(p * 18.0, 3, 61), 0.0, 1.0);
     spot.cover(soft_step(-0.008, 0.008, depth), 0.07 + 0.09 * shoulder(depth / 0.12) + 0.018 * ridge,
                mix(linen_dark, linen, light * light));
@@ -59,7 +59,7 @@ void Painting::paint_sleeve(Vec2 p, Spot &spot) const {
 
 void Painting::paint_blessing_hand(Vec2 p, Spot &spot) const {
     static const std::vector<Limb> all = limbs();
-    if (p.x > -0.55 || p.y < -0.9 || p.y > 0.3) return;
+    if (p.x > -0.55 || p.y < -1.0 || p.y > 0.3) return;
     for (const Limb &limb : all) lay(limb, p, spot);
 }
 

@@ -8,9 +8,9 @@ namespace threefold::figure {
 
 namespace {
 
-constexpr Rgb skin{0.56, 0.40, 0.215}, skin_shadow{0.20, 0.105, 0.045}, lips{0.34, 0.15, 0.085};
-constexpr Rgb hair_dark{0.022, 0.0105, 0.0045}, hair_light{0.20, 0.105, 0.042};
-constexpr Rgb eye_white{0.34, 0.27, 0.17}, iris{0.055, 0.032, 0.016}, line_brown{0.05, 0.022, 0.010};
+constexpr Rgb skin{0.50, 0.335, 0.165}, skin_shadow{0.105, 0.048, 0.018}, lips{0.27, 0.105, 0.055};
+constexpr Rgb hair_dark{0.014, 0.0062, 0.0026}, hair_light{0.30, 0.155, 0.055};
+constexpr Rgb eye_white{0.22, 0.165, 0.10}, iris{0.055, 0.032, 0.016}, line_brown{0.05, 0.022, 0.010};
 
 /// Mirrors the face about its axis: x from the axis, positive to the image's right.
 constexpr double axis_x = -0.018;
@@ -24,9 +24,10 @@ struct Features {
 
 void model_eye(Features &f, Vec2 q, double side) {
     const double x = 0.142 * side, y = 0.675;
-    f.relief -= 0.026 * bump(q, x - 0.01 * side, y + 0.012, 0.075, 0.046);
+    f.relief -= 0.019 * bump(q, x - 0.01 * side, y + 0.008, 0.075, 0.050);
     f.relief += 0.016 * bump(q, x, y - 0.004, 0.045, 0.026);
-    f.tint(0.42 * bump(q, x - 0.012 * side, y + 0.03, 0.085, 0.034), skin_shadow);
+    f.tint(0.34 * bump(q, x - 0.016 * side, y + 0.03, 0.080, 0.034), skin_shadow);
+    f.tint(0.30 * bump(q, 0.085 * side, y + 0.01, 0.022, 0.05), skin_shadow); // beside the nose's root
     f.tint(0.30 * bump(q, x, y - 0.058, 0.07, 0.014), skin_shadow); // lower lid's bag
     // Lids: two arcs that meet in the corners; the eye is open between them, a little.
     const double u = (q.x - x) / 0.062;
@@ -50,17 +51,17 @@ void model_eye(Features &f, Vec2 q, double side) {
     const double v = (q.x - x) * side / 0.095;
     const double brow = 0.765 + 0.022 * (1 - v * v) - 0.008 * v;
     f.tint(0.40 * soft_step(1.15, 0.6, std::abs(v)) * std::exp(-std::pow((q.y - brow) / 0.016, 2)), line_brown);
-    f.relief += 0.013 * bump(q, x, 0.775, 0.085, 0.035);
+    f.relief += 0.006 * bump(q, x, 0.785, 0.085, 0.040);
 }
 
 void model_nose(Features &f, Vec2 q) {
     const double down = std::clamp((0.76 - q.y) / 0.30, 0.0, 1.0); // 0 between the brows, 1 at the tip
-    const double width = mix(0.026, 0.036, down);
-    const double end = soft_step(0.448, 0.474, q.y) * soft_step(0.82, 0.74, q.y);
-    f.relief += (0.020 + 0.052 * down * down) * end * std::exp(-std::pow(q.x / width, 2));
-    f.relief += 0.020 * bump(q, 0, 0.486, 0.028, 0.022);
+    const double width = mix(0.030, 0.040, down);
+    const double end = soft_step(0.440, 0.485, q.y) * soft_step(0.82, 0.74, q.y);
+    f.relief += (0.016 + 0.034 * down * down) * end * std::exp(-std::pow(q.x / width, 2));
+    f.relief += 0.016 * bump(q, 0, 0.486, 0.030, 0.022);
     for (const double side : {-1.0, 1.0}) {
-        f.relief += 0.026 * bump(q, 0.047 * side, 0.480, 0.017, 0.020);
+        f.relief += 0.018 * bump(q, 0.047 * side, 0.482, 0.019, 0.020);
         f.tint(0.85 * bump(q, 0.027 * side, 0.4565, 0.014, 0.0065), line_brown);
         f.tint(0.45 * bump(q, 0.066 * side, 0.478, 0.007, 0.022), skin_shadow);
         f.tint((side > 0 ? 0.42 : 0.16) * bump(q, 0.050 * side, 0.60, 0.017, 0.095), skin_shadow);
@@ -87,6 +88,17 @@ void model_mouth(Features &f, Vec2 q) {
     f.tint(0.16 * bump(q, 0, 0.415, 0.012, 0.020), skin_shadow); // between nose and mouth
 }
 
+/// How far the middle of the hair hangs from the face's axis, from the crown down.
+double hang_of_hair(double y) {
+    constexpr std::array<Vec2, 8> middle{Vec2(-0.50, 0.555), Vec2(-0.30, 0.535), Vec2(0.00, 0.455), Vec2(0.30, 0.375),
+                                         Vec2(0.60, 0.325),  Vec2(0.85, 0.27),   Vec2(1.02, 0.17),  Vec2(1.11, 0.02)};
+    if (y <= middle.front().x) return middle.front().y;
+    for (std::size_t i = 0; i + 1 < middle.size(); ++i)
+        if (y < middle[i + 1].x)
+            return mix(middle[i].y, middle[i + 1].y, (y - middle[i].x) / (middle[i + 1].x - middle[i].x));
+    return middle.back().y - 0.6 * (y - middle.back().x);
+}
+
 } // namespace
 
 void Painting::paint_face(Vec2 p, Spot &spot) const {
@@ -105,43 +117,40 @@ void Painting::paint_face(Vec2 p, Spot &spot) const {
     model_nose(f, q);
     model_mouth(f, q);
     // Sfumato: the far cheek, the jaw and the beard's shade sink into the dark.
-    f.tint(0.62 * soft_step(0.09, 0.25, q.x + 0.15 * (0.7 - q.y)), skin_shadow);
-    f.tint(0.40 * soft_step(0.16, 0.26, -q.x), skin_shadow);
-    f.tint(0.50 * soft_step(0.085, 0.0, depth), skin_shadow);
+    f.tint(0.72 * soft_step(0.02, 0.26, q.x + 0.15 * (0.7 - q.y)), skin_shadow);
+    f.tint(0.48 * soft_step(0.12, 0.26, -q.x), skin_shadow);
+    f.tint(0.62 * soft_step(0.10, 0.0, depth), skin_shadow);
     f.tint(0.34 * soft_step(0.40, 0.22, q.y) * soft_step(0.03, 0.15, std::abs(q.x)), skin_shadow);
     f.tint(0.18 * soft_step(0.34, 0.25, q.y), skin_shadow);
     f.tint(0.20 * soft_step(0.93, 1.02, q.y), skin_shadow);
     f.colour *= 1 + 0.05 * noise(p * 14.0, 3, 11);
     // A wide, flat mass: a cheek turns away from the light late.
-    const double mass = 0.10 + 0.135 * std::pow(shoulder(depth / 0.23), 0.9);
+    const double mass = 0.150 + 0.095 * std::pow(shoulder(depth / 0.24), 0.9);
     spot.cover(soft_step(-0.012, 0.016, depth), mass + f.relief * soft_step(-0.01, 0.05, depth), f.colour);
 }
 
 void Painting::paint_hair(Vec2 p, Spot &spot) const {
-    // Locks: what is drawn is the distance from the outline, so that strands run along it; further down they curl.
-    const double curl = soft_step(0.55, -0.15, p.y);
-    const Vec2 sway(0.022 * curl * std::sin(30 * p.y + 5 * noise(p * 3.0, 1, 21)),
-                    0.012 * curl * std::sin(34 * p.x + 4 * noise(p * 3.0, 1, 22)));
+    const double curl = soft_step(0.60, -0.05, p.y);
+    const Vec2 sway(0.016 * curl * std::sin(24 * p.y + 5 * noise(p * 3.0, 1, 21)), 0);
     const double depth = hair_.depth(p + sway);
     if (depth < -0.03) return;
-    const double right = p.x > axis_x ? 1 : -1;
-    const Beside lock = beside(right > 0 ? parting_right_ : parting_left_, p + sway);
-    const Vec2 far = right > 0 ? Vec2(0.9, 0.9) : Vec2(-0.9, 0.9);
-    const double side = glm::length(p - far) < glm::length(Vec2(0.35 * right, p.y) - far) ? 1 : -1;
-    const double across = side * lock.distance;
-    const double strand = noise(Vec2(34 * across, 5 * lock.along + 3 * right), 3, 23);
-    // Corkscrews: bright ridges that wind across each lock.
-    const double phase = 46 * p.y + 62 * across * (noise(Vec2(9 * across, 2 * p.y), 1, 25) > 0 ? 1 : -1) +
-                         2.5 * noise(p * 7.0, 2, 24);
-    const double coil = std::pow(0.5 + 0.5 * std::sin(phase), 1.5);
-    const double light = std::clamp(mix(0.42 + 0.55 * strand, 0.72 * coil + 0.30 * strand, 0.8 * curl), 0.0, 1.0);
+    const double side = p.x > axis_x ? 1 : -1;
+    const double across = std::abs(p.x + sway.x - axis_x) - hang_of_hair(p.y);
+    const double strand = noise(Vec2(42 * across + 7 * side, 2.2 * p.y), 3, 23);
+    // Corkscrews: in each lock, bands that wind downwards, dark between the locks.
+    const double locks = across / 0.052 + 0.5 * noise(p * Vec2(2.0, 3.0), 1, 25);
+    const double lock = std::floor(locks), s = locks - lock;
+    const double round = std::sin(std::numbers::pi * s);
+    const double phase = 44 * p.y + side * 4.2 * s + 2.3 * lock + 1.2 * noise(p * 6.0, 1, 24);
+    const double coil = round * std::pow(0.5 + 0.5 * std::sin(phase), 1.3);
+    const double light = std::clamp(mix(0.36 + 0.55 * strand, 0.85 * coil + 0.25 * strand, 0.85 * curl), 0.0, 1.0);
     Rgb colour = mix(hair_dark, hair_light, light * light);
     colour = mix(colour, hair_dark, 0.75 * soft_step(0.05, 0.0, face_.depth(p) + 0.06)); // beside the face
     colour = mix(colour, hair_dark, 0.35 * soft_step(0.1, 0.3, p.x));
     colour = mix(colour, hair_dark, 0.8 * std::exp(-std::pow((p.x - axis_x + 0.004) / 0.008, 2)) *
                                         soft_step(1.0, 1.05, p.y)); // the parting
-    const double height = 0.03 + mix(0.15, 0.125, curl) * shoulder(depth / 0.11) + 0.010 * strand +
-                          0.022 * curl * (coil - 0.4) * soft_step(0, 0.04, depth);
+    const double height = 0.03 + mix(0.135, 0.125, curl) * shoulder(depth / 0.11) + 0.008 * strand +
+                          0.026 * curl * (coil + 0.5 * round - 0.5) * soft_step(0, 0.04, depth);
     const double edge = soft_step(-0.012, 0.012, depth + 0.012 * noise(p * 40.0, 2, 26));
     spot.cover(edge, height, colour);
 }
@@ -158,10 +167,10 @@ void Painting::paint_chest(Vec2 p, Spot &spot) const {
         const Vec2 bone(0.10 * side, -0.145), outer(0.36 * side, -0.10);
         const Beside clavicle = beside({bone, outer}, q);
         const double ridge = std::exp(-std::pow(clavicle.distance / 0.022, 2)) * soft_step(1.0, 0.7, clavicle.along);
-        height += 0.008 * ridge;
+        height += 0.004 * ridge;
         colour = mix(colour, skin_shadow, 0.25 * std::exp(-std::pow((clavicle.distance - 0.03) / 0.02, 2)));
         const Beside tendon = beside({Vec2(0.035 * side, -0.15), Vec2(0.17 * side, 0.16)}, q);
-        height += 0.010 * std::exp(-std::pow(tendon.distance / 0.022, 2));
+        height += 0.006 * std::exp(-std::pow(tendon.distance / 0.035, 2)) * soft_step(0, 0.3, tendon.along);
     }
     colour = mix(colour, skin_shadow, 0.30 * bump(q, 0, -0.165, 0.035, 0.03));
     colour = mix(colour, skin_shadow, 0.80 * soft_step(-0.06, 0.24, p.y)); // under the chin

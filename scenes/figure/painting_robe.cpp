@@ -9,8 +9,8 @@ namespace threefold::figure {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
-constexpr Rgb blue_dark{0.006, 0.013, 0.030}, blue{0.042, 0.086, 0.175}, blue_light{0.125, 0.215, 0.36};
-constexpr Rgb gold_dark{0.085, 0.034, 0.009}, gold{0.235, 0.105, 0.028}, gold_light{0.62, 0.37, 0.12};
+constexpr Rgb blue_dark{0.004, 0.009, 0.020}, blue{0.030, 0.064, 0.125}, blue_light{0.105, 0.20, 0.345};
+constexpr Rgb gold_dark{0.050, 0.019, 0.005}, gold{0.145, 0.058, 0.015}, gold_light{0.42, 0.215, 0.062};
 
 /// Directions in which the folds cross the orb's boundary, from the orb's centre; the last three points up.
 constexpr std::array<double, 5> crossing_deg{96, 78, 66, 54, 42};
@@ -24,8 +24,8 @@ double drape(Vec2 p, Vec2 fall, double across_scale, double along_scale, std::ui
     const Vec2 across(-fall.y, fall.x);
     const Vec2 q(across_scale * glm::dot(p, across), along_scale * glm::dot(p, fall));
     const double bend = 0.8 * noise(q * 0.4, 1, seed + 7);
-    const double a = 1 - std::abs(noise(q + Vec2(bend, 0), 1, seed));
-    const double b = 1 - std::abs(noise(q * 2.1 + Vec2(bend, 3), 1, seed + 1));
+    const auto ridge = [](double x) { return 1 - std::sqrt(x * x + 0.012); }; // rounded on top
+    const double a = ridge(noise(q + Vec2(bend, 0), 1, seed)), b = ridge(noise(q * 2.1 + Vec2(bend, 3), 1, seed + 1));
     return 0.7 * a * a + 0.3 * b * b - 0.45;
 }
 
@@ -69,7 +69,7 @@ std::array<Fold, 5> five_folds() {
         const bool aimed = i > 0;
         const Vec2 crossing = orb_place + orb_size * towards(crossing_deg[i]);
         const Vec2 lean = towards(aimed ? crossing_deg[i] : leftmost_lean_deg);
-        folds[i] = {crossing - 0.62 * orb_size * lean, crossing + 1.15 * orb_size * lean, aimed};
+        folds[i] = {crossing - 0.86 * orb_size * lean, crossing + 1.45 * orb_size * lean, aimed};
     }
     return folds;
 }
@@ -83,8 +83,8 @@ double fold_height(Vec2 p) {
         if (a < -0.1 || a > 1.1) continue;
         const double s = (along.x * (p.y - fold.inner.y) - along.y * (p.x - fold.inner.x)) / length;
         // It spreads away from the orb, in proportion to the distance from its centre.
-        const double width = 0.058 * (0.25 + glm::length(p - orb_place));
-        height += soft_step(-0.05, 0.25, a) * soft_step(1.08, 0.75, a) * std::exp(-std::pow(s / width, 2));
+        const double width = 0.050 * (0.22 + glm::length(p - orb_place));
+        height += soft_step(-0.05, 0.22, a) * soft_step(1.08, 0.75, a) * std::exp(-std::pow(s / width, 2));
     }
     return height;
 }
@@ -98,7 +98,7 @@ void Painting::paint_robe(Vec2 p, Spot &spot) const {
         return d.x * q.y - d.y * q.x; // positive: left of the band's direction
     };
     const double under_left = -side_of(left_band_), under_right = side_of(right_band_);
-    const double mantle = soft_step(-0.01, 0.01, under_right), sleeve = soft_step(-0.01, 0.01, under_left) * (1 - mantle);
+    const double mantle = std::max(soft_step(-0.01, 0.01, under_right), soft_step(0.46, 0.50, p.x)), sleeve = soft_step(-0.01, 0.01, under_left) * (1 - mantle);
     const double bodice = std::max(0.0, 1 - mantle - sleeve);
 
     const double neckline = beside(neck_band_, p).distance;
@@ -114,11 +114,11 @@ void Painting::paint_robe(Vec2 p, Spot &spot) const {
     const double hang = drape(p, glm::normalize(Vec2(0.30, -1)), 6.5, 1.6, 41);
     const double sweep = drape(p, glm::normalize(Vec2(-0.62, -0.78)), 8.0, 1.3, 43);
     const double folds = fold_height(p);
-    const double mantle_fold = mix(0.030 * sweep, 0.004 * sweep, near_folds) + 0.026 * folds;
+    const double mantle_fold = mix(0.030 * sweep, 0.003 * sweep, near_folds) + 0.034 * folds;
     const double relief = mantle * mantle_fold + sleeve * 0.034 * hang + bodice * 0.006 * pleats;
 
     const double weave = 0.10 * noise(p * 30.0, 3, 44);
-    const double mantle_light = mix(0.9 * sweep, 0.25 * sweep - 0.18, near_folds) + 0.62 * folds;
+    const double mantle_light = mix(1.1 * sweep - 0.1, 0.2 * sweep - 0.50, near_folds) + 1.05 * folds;
     double light = mantle * mantle_light + sleeve * (1.0 * hang - 0.25) + bodice * (0.28 * pleats - 0.25) + weave;
     light -= 0.55 * mantle * soft_step(-0.95, -1.40, p.y);
     light -= 0.35 * sleeve * soft_step(-0.55, -0.80, p.y) + 0.25 * soft_step(-1.2, -1.45, p.y);

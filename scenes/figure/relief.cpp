@@ -9,6 +9,27 @@ constexpr int texture_width = 704, texture_height = 1022;
 
 Vec2 place_at(double u, double v) { return relief_low + Vec2(u, v) * (relief_high - relief_low); }
 
+/// A cliff between two cells would be a row of teeth: it is spread over this (standard deviation).
+constexpr double softness = 0.008;
+
+/// One pass of the binomial filter (1 2 1) / 4 along and across.
+void soften(std::vector<double> &heights, int columns, int rows) {
+    const auto pass = [&](int step, int count, int stride, int lines) {
+        for (int line = 0; line < lines; ++line) {
+            double before = heights[static_cast<std::size_t>(line * stride)];
+            for (int i = 0; i < count; ++i) {
+                double &here = heights[static_cast<std::size_t>(line * stride + i * step)];
+                const double after = i + 1 < count ? heights[static_cast<std::size_t>(line * stride + (i + 1) * step)] : here;
+                const double old = here;
+                here = (before + 2 * old + after) / 4;
+                before = old;
+            }
+        }
+    };
+    pass(1, columns, columns, rows);
+    pass(columns, rows, 1, columns);
+}
+
 } // namespace
 
 Vec3 Standpoint::point_mm(Vec2 place, double height) const {
@@ -27,13 +48,17 @@ Mesh relief(const Standpoint &standpoint, int columns) {
     const int rows = std::max(2, static_cast<int>(std::lround((columns - 1) * size.y / size.x)) + 1);
     const Painting painting;
     Mesh mesh;
+    std::vector<double> heights;
     for (int row = 0; row < rows; ++row)
         for (int column = 0; column < columns; ++column) {
-            const Vec2 uv(static_cast<double>(column) / (columns - 1), static_cast<double>(row) / (rows - 1));
-            const Vec2 place = place_at(uv.x, uv.y);
-            mesh.uv.push_back(uv);
-            mesh.vertices_mm.push_back(standpoint.point_mm(place, painting.at(place).height));
+            mesh.uv.emplace_back(static_cast<double>(column) / (columns - 1), static_cast<double>(row) / (rows - 1));
+            heights.push_back(painting.at(place_at(mesh.uv.back().x, mesh.uv.back().y)).height);
         }
+    const double cell = size.x / (columns - 1); // a pass has the variance of half a cell squared
+    const auto passes = std::min(64L, std::lround(2 * softness * softness / (cell * cell)));
+    for (long i = 0; i < passes; ++i) soften(heights, columns, rows);
+    for (std::size_t i = 0; i < heights.size(); ++i)
+        mesh.vertices_mm.push_back(standpoint.point_mm(place_at(mesh.uv[i].x, mesh.uv[i].y), heights[i]));
     for (int row = 0; row + 1 < rows; ++row)
         for (int column = 0; column + 1 < columns; ++column) {
             const auto a = static_cast<unsigned>(row * columns + column), b = a + 1;
