@@ -92,8 +92,7 @@ Mesh make_hand(const Parameters &p) {
 Mesh make_robe(const Parameters &p) {
     const figure::Standpoint view = standpoint(p);
     const bool own = given(p, "robe.mesh");
-    Mesh robe = own ? read_mesh(p, "robe")
-                    : figure::relief(view, static_cast<int>(p.number("robe.relief_resolution")));
+    Mesh robe = own ? read_mesh(p, "robe") : figure::relief(view, static_cast<int>(p.number("robe.relief_resolution")));
     if (own) {
         // As the study places its relief, and in the same proportion to the picture at other distances.
         const double study_unit = half_width_at_orb_mm() * (1 + study_robe_mm / study_eye_mm);
@@ -238,8 +237,8 @@ Scene composition(const Parameters &p) {
         return scene;
     }
     scene.lights = study_lights();
-    scene.environment = Environment{Rgb(p.number("environment.radiance")),
-                                    static_cast<int>(p.number("environment.dome_directions"))};
+    scene.environment =
+        Environment{Rgb(p.number("environment.radiance")), static_cast<int>(p.number("environment.dome_directions"))};
     scene.glass_shadow = {GlassShadow::Rule::constant, p.number("glass.shadow_transmittance")};
     return scene;
 }

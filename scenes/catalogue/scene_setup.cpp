@@ -14,7 +14,7 @@ Camera side_camera(const Parameters &p) {
     const double length = view.eye_mm.z - view.plane_z_mm;
     Camera camera;
     camera.eye_mm = view.eye_mm + length * Vec3(-0.85, 0.10, 0.05);
-    camera.target_mm = view.eye_mm + length * Vec3(0.0, -0.10, -0.35);
+    camera.target_mm = view.eye_mm + length * Vec3(0.0, -0.01, -0.35);
     camera.horizontal_fov_deg = 76;
     camera.width_px = static_cast<int>(p.number("image.width_px"));
     camera.height_px = static_cast<int>(p.number("image.height_px"));

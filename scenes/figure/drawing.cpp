@@ -20,8 +20,8 @@ Beside beside(const std::vector<Vec2> &line, Vec2 p) {
 namespace {
 
 double lattice(std::int64_t x, std::int64_t y, std::uint32_t seed) {
-    auto h = static_cast<std::uint32_t>(x) * 0x8da6b343u ^ static_cast<std::uint32_t>(y) * 0xd8163841u ^
-             seed * 0xcb1ab31fu;
+    auto h =
+        static_cast<std::uint32_t>(x) * 0x8da6b343u ^ static_cast<std::uint32_t>(y) * 0xd8163841u ^ seed * 0xcb1ab31fu;
     h = (h ^ (h >> 13)) * 0x5bd1e995u;
     h = (h ^ (h >> 15)) * 0x27d4eb2fu;
     return static_cast<double>(h ^ (h >> 16)) / 2147483647.5 - 1;
@@ -58,14 +58,14 @@ std::vector<Vec2> curve_through(const std::vector<Vec2> &points, bool closed, in
         for (int k = 0; k < steps; ++k) {
             const double t = static_cast<double>(k) / steps;
             const Vec2 a = at(i - 1), b = at(i), c = at(i + 1), d = at(i + 2);
-            curve.push_back(b + 0.5 * t * (c - a + t * (2.0 * a - 5.0 * b + 4.0 * c - d + t * (3.0 * (b - c) + d - a))));
+            curve.push_back(b +
+                            0.5 * t * (c - a + t * (2.0 * a - 5.0 * b + 4.0 * c - d + t * (3.0 * (b - c) + d - a))));
         }
     curve.push_back(closed ? curve.front() : points.back());
     return curve;
 }
 
-Outline::Outline(const std::vector<Vec2> &points)
-    : curve_(curve_through(points, true)) {
+Outline::Outline(const std::vector<Vec2> &points) : curve_(curve_through(points, true)) {
     Vec2 high = low_ = curve_.front();
     for (const Vec2 p : curve_) {
         low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y)};

@@ -59,16 +59,20 @@ Chain finger(Vec3 root, Vec3 tip, double root_radius, double tip_radius) {
 
 double body(Vec3 p) {
     static const std::array<Chain, 5> fingers{
-        finger(direction(24, 100), direction(47, 20), 0.140, 0.098),  // index
-        finger(direction(9, 60), direction(52, -22), 0.145, 0.100),   // middle
+        finger(direction(24, 100), direction(47, 20), 0.140, 0.098),   // index
+        finger(direction(9, 60), direction(52, -22), 0.145, 0.100),    // middle
         finger(direction(14, -120), direction(56, -55), 0.138, 0.094), // ring
         finger(direction(30, -135), direction(61, -86), 0.120, 0.080), // little
-        finger(direction(44, 150), direction(66, 84), 0.165, 0.108),  // thumb
+        finger(direction(44, 150), direction(66, 84), 0.165, 0.108),   // thumb
     };
-    static const Chain palm{{direction(8, 90) * 1.24, 0.21}, {direction(12, 180) * 1.27, 0.25}, {direction(36, 180) * 1.32, 0.30}};
-    static const Chain ball_of_thumb{{direction(30, 120) * 1.19, 0.20}, {direction(46, 145) * 1.25, 0.27}, {direction(54, 165) * 1.30, 0.27}};
-    static const Chain edge_of_hand{{direction(20, -110) * 1.17, 0.17}, {direction(42, -145) * 1.21, 0.22}, {direction(54, -165) * 1.27, 0.25}};
-    static const Chain wrist{{direction(50, 180) * 1.42, 0.30}, {Vec3(0.05, -1.25, -1.75), 0.30}, {Vec3(0.10, -1.75, -2.35), 0.33}};
+    static const Chain palm{
+        {direction(8, 90) * 1.24, 0.21}, {direction(12, 180) * 1.27, 0.25}, {direction(36, 180) * 1.32, 0.30}};
+    static const Chain ball_of_thumb{
+        {direction(30, 120) * 1.19, 0.20}, {direction(46, 145) * 1.25, 0.27}, {direction(54, 165) * 1.30, 0.27}};
+    static const Chain edge_of_hand{
+        {direction(20, -110) * 1.17, 0.17}, {direction(42, -145) * 1.21, 0.22}, {direction(54, -165) * 1.27, 0.25}};
+    static const Chain wrist{
+        {direction(50, 180) * 1.42, 0.30}, {Vec3(0.05, -1.25, -1.75), 0.30}, {Vec3(0.10, -1.75, -2.35), 0.33}};
     double mass = blend(distance_to_chain(p, palm), distance_to_chain(p, ball_of_thumb), 0.14);
     mass = blend(mass, distance_to_chain(p, edge_of_hand), 0.14);
     mass = blend(mass, distance_to_chain(p, wrist), 0.20);

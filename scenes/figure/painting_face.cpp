@@ -28,7 +28,7 @@ void model_eye(Features &f, Vec2 q, double side) {
     f.relief += 0.016 * bump(q, x, y - 0.004, 0.045, 0.026);
     f.tint(0.34 * bump(q, x - 0.016 * side, y + 0.03, 0.080, 0.034), skin_shadow);
     f.tint(0.30 * bump(q, 0.085 * side, y + 0.01, 0.022, 0.05), skin_shadow); // beside the nose's root
-    f.tint(0.30 * bump(q, x, y - 0.058, 0.07, 0.014), skin_shadow); // lower lid's bag
+    f.tint(0.30 * bump(q, x, y - 0.058, 0.07, 0.014), skin_shadow);           // lower lid's bag
     // Lids: two arcs that meet in the corners; the eye is open between them, a little.
     const double u = (q.x - x) / 0.062;
     if (std::abs(u) < 1.25) {
@@ -147,8 +147,9 @@ void Painting::paint_hair(Vec2 p, Spot &spot) const {
     Rgb colour = mix(hair_dark, hair_light, light * light);
     colour = mix(colour, hair_dark, 0.75 * soft_step(0.05, 0.0, face_.depth(p) + 0.06)); // beside the face
     colour = mix(colour, hair_dark, 0.35 * soft_step(0.1, 0.3, p.x));
-    colour = mix(colour, hair_dark, 0.8 * std::exp(-std::pow((p.x - axis_x + 0.004) / 0.008, 2)) *
-                                        soft_step(1.0, 1.05, p.y)); // the parting
+    colour =
+        mix(colour, hair_dark,
+            0.8 * std::exp(-std::pow((p.x - axis_x + 0.004) / 0.008, 2)) * soft_step(1.0, 1.05, p.y)); // the parting
     const double height = 0.03 + mix(0.135, 0.125, curl) * shoulder(depth / 0.11) + 0.008 * strand +
                           0.026 * curl * (coil + 0.5 * round - 0.5) * soft_step(0, 0.04, depth);
     const double edge = soft_step(-0.012, 0.012, depth + 0.012 * noise(p * 40.0, 2, 26));

@@ -37,7 +37,8 @@ Rgb cloth(double light) {
 double knots(double a, double s) {
     const double pi = std::numbers::pi;
     double thread = 0;
-    for (const double edge : {0.93, 0.76}) thread = std::max(thread, std::exp(-std::pow((std::abs(s) - edge) / 0.05, 2)));
+    for (const double edge : {0.93, 0.76})
+        thread = std::max(thread, std::exp(-std::pow((std::abs(s) - edge) / 0.05, 2)));
     const double period = 0.105;
     for (int k = 0; k < 3; ++k) {
         const double centre = 0.62 * std::sin(2 * pi * a / period + 2 * pi * k / 3.0);
@@ -98,17 +99,18 @@ void Painting::paint_robe(Vec2 p, Spot &spot) const {
         return d.x * q.y - d.y * q.x; // positive: left of the band's direction
     };
     const double under_left = -side_of(left_band_), under_right = side_of(right_band_);
-    const double mantle = std::max(soft_step(-0.01, 0.01, under_right), soft_step(0.46, 0.50, p.x)), sleeve = soft_step(-0.01, 0.01, under_left) * (1 - mantle);
+    const double mantle = std::max(soft_step(-0.01, 0.01, under_right), soft_step(0.46, 0.50, p.x)),
+                 sleeve = soft_step(-0.01, 0.01, under_left) * (1 - mantle);
     const double bodice = std::max(0.0, 1 - mantle - sleeve);
 
     const double neckline = beside(neck_band_, p).distance;
     const bool above_neckline = p.y > -0.455 && std::abs(p.x) < 0.52 && bodice > 0.5 && neckline > 0;
-    const double skin_shows = above_neckline ? soft_step(-0.005, 0.01, chest_.depth(p)) *
-                                                   soft_step(-0.47, -0.455, p.y)
-                                             : 0;
+    const double skin_shows =
+        above_neckline ? soft_step(-0.005, 0.01, chest_.depth(p)) * soft_step(-0.47, -0.455, p.y) : 0;
 
     const double mass = 0.04 + 0.10 * shoulder(depth / 0.30);
-    const double near_folds = soft_step(1.05, 0.5, glm::length(p - orb_place - orb_size * 1.2 * towards(68)) / orb_size / 1.25);
+    const double near_folds =
+        soft_step(1.05, 0.5, glm::length(p - orb_place - orb_size * 1.2 * towards(68)) / orb_size / 1.25);
 
     const double pleats = std::sin(2 * std::numbers::pi * (p.x / 0.040 + 0.9 * noise(Vec2(3 * p.x, 2 * p.y), 2, 40)));
     const double hang = drape(p, glm::normalize(Vec2(0.30, -1)), 6.5, 1.6, 41);
@@ -135,17 +137,18 @@ void Painting::paint_bands(Vec2 p, Spot &spot) const {
         const std::vector<Vec2> *line;
         double half_width, length;
     };
-    for (const Band &band : {Band{&right_band_, 0.074, 1.45}, Band{&left_band_, 0.078, 1.2}, Band{&neck_band_, 0.056, 0.95}}) {
+    for (const Band &band :
+         {Band{&right_band_, 0.074, 1.45}, Band{&left_band_, 0.078, 1.2}, Band{&neck_band_, 0.056, 0.95}}) {
         const Beside here = beside(*band.line, p);
         if (here.distance > 1.4 * band.half_width) continue;
         const double s = here.distance / band.half_width;
         // A shade beside it, where it stands off the cloth.
         spot.colour *= 1 - 0.5 * soft_step(1.35, 1.0, s);
-        const double signed_s = p.y + p.x * (band.line == &right_band_ ? -1 : 1) >
-                                        band.line->front().y +
-                                            band.line->front().x * (band.line == &right_band_ ? -1 : 1)
-                                    ? s
-                                    : -s;
+        const double signed_s =
+            p.y + p.x * (band.line == &right_band_ ? -1 : 1) >
+                    band.line->front().y + band.line->front().x * (band.line == &right_band_ ? -1 : 1)
+                ? s
+                : -s;
         const double thread = knots(here.along * band.length, signed_s);
         Rgb colour = mix(gold_dark, gold, 0.55 + 0.5 * noise(p * 22.0, 2, 50));
         colour = mix(colour, gold_light, 0.75 * thread);

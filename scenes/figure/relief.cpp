@@ -19,7 +19,8 @@ void soften(std::vector<double> &heights, int columns, int rows) {
             double before = heights[static_cast<std::size_t>(line * stride)];
             for (int i = 0; i < count; ++i) {
                 double &here = heights[static_cast<std::size_t>(line * stride + i * step)];
-                const double after = i + 1 < count ? heights[static_cast<std::size_t>(line * stride + (i + 1) * step)] : here;
+                const double after =
+                    i + 1 < count ? heights[static_cast<std::size_t>(line * stride + (i + 1) * step)] : here;
                 const double old = here;
                 here = (before + 2 * old + after) / 4;
                 before = old;

@@ -50,14 +50,13 @@ std::vector<double> values_on(const Grid &g, const Field &field) {
     for (int z0 = 0; z0 < g.nz; z0 += block)
         for (int y0 = 0; y0 < g.ny; y0 += block)
             for (int x0 = 0; x0 < g.nx; x0 += block) {
-                const double middle =
-                    field(g.node(x0, y0, z0) + Vec3(0.5 * (block - 1) * g.cell));
+                const double middle = field(g.node(x0, y0, z0) + Vec3(0.5 * (block - 1) * g.cell));
                 const bool far = std::abs(middle) > reach;
                 for (int z = z0; z < std::min(z0 + block, g.nz); ++z)
                     for (int y = y0; y < std::min(y0 + block, g.ny); ++y)
                         for (int x = x0; x < std::min(x0 + block, g.nx); ++x)
-                            values[g.index(x, y, z)] =
-                                far ? std::copysign(std::numeric_limits<double>::max(), middle) : field(g.node(x, y, z));
+                            values[g.index(x, y, z)] = far ? std::copysign(std::numeric_limits<double>::max(), middle)
+                                                           : field(g.node(x, y, z));
             }
     return values;
 }
@@ -65,8 +64,8 @@ std::vector<double> values_on(const Grid &g, const Field &field) {
 } // namespace
 
 Mesh surface_net(const Field &field, Vec3 low, Vec3 high, double cell) {
-    const Grid g{low, cell, static_cast<int>((high.x - low.x) / cell) + 2, static_cast<int>((high.y - low.y) / cell) + 2,
-                 static_cast<int>((high.z - low.z) / cell) + 2};
+    const Grid g{low, cell, static_cast<int>((high.x - low.x) / cell) + 2,
+                 static_cast<int>((high.y - low.y) / cell) + 2, static_cast<int>((high.z - low.z) / cell) + 2};
     const std::vector<double> values = values_on(g, field);
     constexpr unsigned none = std::numeric_limits<unsigned>::max();
     std::vector<unsigned> vertex_of(values.size(), none); // of the cell whose lowest node it is

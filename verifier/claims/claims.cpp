@@ -16,6 +16,8 @@ std::vector<Claim> built_in_claims() {
         claim_energy(),
         claim_solid_vs_hollow(),
         claim_rim_reads_wall(),
+        claim_salvator(),
+        claim_setup(),
     };
 }
 
