@@ -9,6 +9,8 @@ std::vector<SceneRecipe> built_in_scenes() {
         solid_scene(),
         hollow_scene(),
         furnace_scene(), salvator_scene(), setup_scene(),
+        furnace_scene(),
+        soft_light_scene(),
     };
 }
 

@@ -14,5 +14,6 @@ SceneRecipe hollow_scene();
 SceneRecipe furnace_scene();
 SceneRecipe salvator_scene();
 SceneRecipe setup_scene();
+SceneRecipe soft_light_scene();
 
 } // namespace threefold

@@ -75,8 +75,7 @@ void require_known(const std::vector<Assignment> &assignments, const std::vector
 
 class Run {
 public:
-    explicit Run(const CheckRequest &request)
-        : request_(request) {
+    explicit Run(const CheckRequest &request) : request_(request) {
         for (const Witness &w : request.witnesses) {
             WitnessRecord record;
             record.name = w.name;

@@ -93,6 +93,7 @@ Claim claim_solid_vs_hollow();
 Claim claim_rim_reads_wall();
 Claim claim_salvator();
 Claim claim_setup();
+Claim claim_soft_light();
 
 /// `name=value` for whatever fmt can print, with all digits.
 Assignment assign(std::string_view name, double value);

@@ -18,6 +18,7 @@ std::vector<Claim> built_in_claims() {
         claim_rim_reads_wall(),
         claim_salvator(),
         claim_setup(),
+        claim_soft_light(),
     };
 }
 

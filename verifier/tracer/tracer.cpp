@@ -57,15 +57,15 @@ std::vector<Orb<Real>> orbs_of(const Scene &scene) {
 template <class Real>
 class World {
 public:
-    World(const Scene &scene, const TreeEnd<Real> &end)
+    World(const Scene &scene, const TreeEnd<Real> &end, int samples)
         : scene_(scene), end_(end), orbs_(orbs_of<Real>(scene)), surfaces_(scene, std::is_same_v<Real, double>),
-          lights_(lights_on_diffuse(scene)) {}
+          lights_(scene, samples) {}
 
     /// What one thread and one sample carry along.
     struct Path {
         std::deque<TreeScratch<Real>> scratch;
         PixelSampler *sampler = nullptr;
-        LightShare lights;
+        const std::vector<Light> *lights = nullptr;
         double dropped = 0;
     };
 
@@ -77,7 +77,8 @@ public:
         const std::size_t orb = nearest_orb(ray, left, entry);
         const Ray exact{Vec3(ray.origin), Vec3(ray.direction)};
         const auto hit = surfaces_.intersect(exact);
-        if (hit && (orb == none || hit->distance <= static_cast<double>(entry.distance))) return leaving(*hit, path.lights);
+        if (hit && (orb == none || hit->distance <= static_cast<double>(entry.distance)))
+            return leaving(*hit, *path.lights);
         if (orb == none) return scene_.environment ? scene_.environment->radiance : Rgb(0);
         if (depth >= greatest_depth) {
             path.dropped += weight;
@@ -112,14 +113,14 @@ private:
         return found;
     }
 
-    Rgb leaving(const SurfaceHit &hit, LightShare share) const {
+    Rgb leaving(const SurfaceHit &hit, const std::vector<Light> &lights) const {
         const auto reflectance = surfaces_.reflectance(hit);
         if (!reflectance) return surfaces_.emitted(hit);
         Rgb irradiance(0);
-        lights_.for_each(share, [&](const Lights::Light &light, double factor) {
+        for (const Light &light : lights) {
             const double cosine = glm::dot(light.towards, hit.normal);
-            if (cosine > 0) irradiance += light.irradiance * (factor * cosine * passed(hit, light.towards));
-        });
+            if (cosine > 0) irradiance += light.irradiance * (cosine * passed(hit, light.towards));
+        }
         return *reflectance * irradiance / std::numbers::pi;
     }
 
@@ -154,10 +155,10 @@ double process_cpu_seconds() {
 template <class Real>
 void render(const RenderJob &job, const TreeEnd<Real> &end, const std::function<void(double)> &on_progress,
             TracerOutcome &outcome) {
-    const World<Real> world(job.scene, end);
     const Camera &camera = job.scene.camera;
     const int width = camera.image_width_px(), height = camera.image_height_px();
     const int samples = job.sampling == Sampling::box ? job.samples_per_pixel : 1;
+    const World<Real> world(job.scene, end, samples);
     const double pixels = static_cast<double>(width) * height * static_cast<double>(job.replicates.size());
 
     std::atomic<double> done = 0;
@@ -174,7 +175,7 @@ void render(const RenderJob &job, const TreeEnd<Real> &end, const std::function<
             const auto turn = static_cast<std::size_t>(sampler.next() * 65536);
             Rgb sum(0);
             for (int k = 0; k < samples; ++k) {
-                path.lights = world.lights().share(static_cast<std::size_t>(k), static_cast<std::size_t>(samples), turn);
+                path.lights = &world.lights().share(static_cast<std::size_t>(k), turn);
                 const Vec2 at =
                     job.sampling == Sampling::pixel_centres
                         ? pixel_sample(camera, column, row)
@@ -214,7 +215,8 @@ TracerOutcome trace(const RenderJob &job, const TracerSettings &settings,
     const Needs n = needs(job.scene);
     if (n.caustics) throw Error(Exit::bad_data, "the tracer does not follow caustics onto diffuse surfaces");
     if (n.environment_on_diffuse)
-        throw Error(Exit::bad_data, "the tracer lights diffuse surfaces by parallel lights only: give the environment a dome of them");
+        throw Error(Exit::bad_data,
+                    "the tracer lights diffuse surfaces by parallel lights only: give the environment a dome of them");
     const auto start = std::chrono::steady_clock::now();
     const double cpu_start = process_cpu_seconds();
     TracerOutcome outcome;
