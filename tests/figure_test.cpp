@@ -127,7 +127,7 @@ TEST(Relief, IsRaisedAlongTheLinesOfSightSoThatThePictureStaysAsDrawn) {
     const Standpoint from{{-143.4, 234.12, 1200}, 0.1878, -297.5};
     const Mesh mesh = relief(from, 40);
     for (std::size_t i = 0; i < mesh.vertices_mm.size(); ++i) {
-        const Vec2 drawn = relief_low + mesh.uv[i] * (relief_high - relief_low);
+        const Vec2 drawn = (2.0 * mesh.uv[i] - 1.0) * Vec2(1, picture_height);
         EXPECT_NEAR(from.place(mesh.vertices_mm[i]).x, drawn.x, 1e-12);
         EXPECT_NEAR(from.place(mesh.vertices_mm[i]).y, drawn.y, 1e-12);
         EXPECT_GE(mesh.vertices_mm[i].z, -297.5 - 1e-9);

@@ -8,9 +8,10 @@ std::vector<SceneRecipe> built_in_scenes() {
         calibration_scene(),
         solid_scene(),
         hollow_scene(),
-        furnace_scene(), salvator_scene(), setup_scene(),
         furnace_scene(),
         soft_light_scene(),
+        salvator_scene(),
+        setup_scene(),
     };
 }
 

@@ -5,9 +5,12 @@ namespace threefold::figure {
 
 namespace {
 
-constexpr int texture_width = 704, texture_height = 1022;
+constexpr int texture_width = 704, texture_height = 1036;
 
-Vec2 place_at(double u, double v) { return relief_low + Vec2(u, v) * (relief_high - relief_low); }
+/// Texture coordinates are those of the whole picture.
+constexpr Vec2 picture_high{1, picture_height};
+Vec2 place_at(Vec2 uv) { return (2.0 * uv - 1.0) * picture_high; }
+Vec2 uv_at(Vec2 place) { return 0.5 * (place / picture_high + 1.0); }
 
 /// A cliff between two cells would be a row of teeth: it is spread over this (standard deviation).
 constexpr double softness = 0.008;
@@ -52,14 +55,16 @@ Mesh relief(const Standpoint &standpoint, int columns) {
     std::vector<double> heights;
     for (int row = 0; row < rows; ++row)
         for (int column = 0; column < columns; ++column) {
-            mesh.uv.emplace_back(static_cast<double>(column) / (columns - 1), static_cast<double>(row) / (rows - 1));
-            heights.push_back(painting.at(place_at(mesh.uv.back().x, mesh.uv.back().y)).height);
+            const Vec2 share(static_cast<double>(column) / (columns - 1), static_cast<double>(row) / (rows - 1));
+            const Vec2 place = relief_low + share * size;
+            mesh.uv.push_back(uv_at(place));
+            heights.push_back(painting.at(place).height);
         }
     const double cell = size.x / (columns - 1); // a pass has the variance of half a cell squared
     const auto passes = std::min(64L, std::lround(2 * softness * softness / (cell * cell)));
     for (long i = 0; i < passes; ++i) soften(heights, columns, rows);
     for (std::size_t i = 0; i < heights.size(); ++i)
-        mesh.vertices_mm.push_back(standpoint.point_mm(place_at(mesh.uv[i].x, mesh.uv[i].y), heights[i]));
+        mesh.vertices_mm.push_back(standpoint.point_mm(place_at(mesh.uv[i]), heights[i]));
     for (int row = 0; row + 1 < rows; ++row)
         for (int column = 0; column + 1 < columns; ++column) {
             const auto a = static_cast<unsigned>(row * columns + column), b = a + 1;
@@ -88,7 +93,7 @@ std::shared_ptr<const Texture> relief_texture() {
         for (int row = 0; row < texture_height; ++row)
             for (int column = 0; column < texture_width; ++column) {
                 const Rgb colour =
-                    painting.at(place_at((column + 0.5) / texture_width, 1 - (row + 0.5) / texture_height)).colour;
+                    painting.at(place_at({(column + 0.5) / texture_width, 1 - (row + 0.5) / texture_height})).colour;
                 for (int k = 0; k < 3; ++k)
                     image->rgb.push_back(static_cast<std::uint16_t>(std::lround(colour[k] * 65535)));
             }

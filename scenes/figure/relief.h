@@ -21,7 +21,8 @@ struct Standpoint {
     Vec2 place(Vec3 point_mm) const;
 };
 
-/// `columns` vertices a row (at least 2); rows as make its cells square. With texture coordinates; grey.
+/// `columns` vertices a row (at least 2); rows as make its cells square. Texture coordinates are those of the whole
+/// picture, so that any picture of this composition fits it; grey.
 Mesh relief(const Standpoint &standpoint, int columns);
 
 /// What belongs on it.

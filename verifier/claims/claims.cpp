@@ -16,9 +16,9 @@ std::vector<Claim> built_in_claims() {
         claim_energy(),
         claim_solid_vs_hollow(),
         claim_rim_reads_wall(),
+        claim_soft_light(),
         claim_salvator(),
         claim_setup(),
-        claim_soft_light(),
     };
 }
 
