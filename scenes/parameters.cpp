@@ -58,12 +58,22 @@ std::string_view to_string(Preset preset) {
     return "";
 }
 
-Parameters::Parameters(std::vector<ParameterSpec> specs, Preset preset) : specs_(std::move(specs)), preset_(preset) {
+FileReader no_files() {
+    const auto refuse = [](const std::string &path) {
+        return Error(Exit::internal,
+                     fmt::format("the parameters were made without a reader of files: cannot read {}", path));
+    };
+    return {[refuse](const std::string &path) -> Mesh { throw refuse(path); },
+            [refuse](const std::string &path, double) -> std::shared_ptr<const Texture> { throw refuse(path); }};
+}
+
+Parameters::Parameters(std::vector<ParameterSpec> specs, Preset preset, FileReader files)
+    : specs_(std::move(specs)), preset_(preset), files_(std::move(files)) {
     for (const ParameterSpec &s : specs_) {
-        if (s.choices.empty())
+        if (s.is_number())
             numbers_[s.name] = preset == Preset::text ? s.text : s.published;
         else
-            words_[s.name] = s.choices.front();
+            words_[s.name] = s.path ? "" : s.choices.front();
     }
 }
 
@@ -81,6 +91,7 @@ const ParameterSpec &Parameters::spec(std::string_view name) const {
 
 void Parameters::set(std::string_view name, double value) {
     const ParameterSpec &s = spec(name);
+    if (s.path) throw Error(Exit::bad_data, fmt::format("{} takes the name of a file", name));
     if (!s.choices.empty())
         throw Error(Exit::bad_data, fmt::format("{} takes a word: {}", name, fmt::join(s.choices, ", ")));
     if (!std::isfinite(value))
@@ -95,6 +106,10 @@ void Parameters::set(std::string_view name, double value) {
 
 void Parameters::set(std::string_view name, std::string_view value) {
     const ParameterSpec &s = spec(name);
+    if (s.path) {
+        words_.find(name)->second = value;
+        return;
+    }
     if (!s.choices.empty()) {
         if (std::ranges::find(s.choices, value) == s.choices.end())
             throw Error(Exit::bad_data, unknown_name(fmt::format("value for {}", name), value, s.choices));
@@ -123,7 +138,7 @@ const std::string &Parameters::word(std::string_view name) const {
 }
 
 std::string Parameters::text(std::string_view name) const {
-    return spec(name).choices.empty() ? fmt::format("{}", number(name)) : word(name);
+    return spec(name).is_number() ? fmt::format("{}", number(name)) : word(name);
 }
 
 Assignment parse_assignment(std::string_view text) {

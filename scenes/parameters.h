@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "scenes/file_reader.h"
 #include "scenes/scene.h"
 
 namespace threefold {
@@ -19,7 +20,7 @@ enum class Preset { text, published };
 Preset parse_preset(std::string_view name);
 std::string_view to_string(Preset preset);
 
-/// One parameter. A number has a range; a word has `choices` and no range.
+/// One parameter. A number has a range; a word has `choices` and no range; a path has neither.
 struct ParameterSpec {
     std::string name; ///< e.g. "orb.wall_mm"; the suffix is the unit
     std::string description{};
@@ -28,11 +29,16 @@ struct ParameterSpec {
     double greatest = std::numeric_limits<double>::infinity();
     bool whole = false;                 ///< only whole numbers
     std::vector<std::string> choices{}; ///< words; the first is the default
+    /// The name of a file of the user's own; empty, the default: what the scene generates itself.
+    bool path = false;
+
+    bool is_number() const { return choices.empty() && !path; }
 };
 
 class Parameters {
 public:
-    Parameters(std::vector<ParameterSpec> specs, Preset preset);
+    /// `files` reads what path parameters name; without it, a scene that needs a file throws Error(internal).
+    Parameters(std::vector<ParameterSpec> specs, Preset preset, FileReader files = no_files());
 
     /// Throws Error(usage) for an unknown name (with the nearest), Error(bad_data) for a value that is no number, not
     /// finite, out of range or no choice.
@@ -41,18 +47,21 @@ public:
 
     bool has(std::string_view name) const;
     double number(std::string_view name) const;
+    /// A word, or a path.
     const std::string &word(std::string_view name) const;
     /// As `--set` would take it.
     std::string text(std::string_view name) const;
 
     const std::vector<ParameterSpec> &specs() const { return specs_; }
     Preset preset() const { return preset_; }
+    const FileReader &files() const { return files_; }
 
 private:
     const ParameterSpec &spec(std::string_view name) const;
 
     std::vector<ParameterSpec> specs_;
     Preset preset_;
+    FileReader files_;
     std::map<std::string, double, std::less<>> numbers_;
     std::map<std::string, std::string, std::less<>> words_;
 };

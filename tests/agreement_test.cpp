@@ -136,6 +136,14 @@ TEST(Tiles, FailWhenOneChannelOfOneTileIsOff) {
     EXPECT_NEAR(t.worst_difference, -0.02, 0.003);
 }
 
+TEST(Tiles, MayDifferInAFewWhenASmallerShareIsAskedFor) {
+    const TileComparison most = compare_tiles(noisy(1, 0.01), noisy(2, 0.01, 0.02), 8, 0.005, 0.9);
+    EXPECT_EQ(most.verdict, Verdict::holds);
+    EXPECT_EQ(most.failing, 1);
+    EXPECT_EQ(most.needed_share, 0.9);
+    EXPECT_EQ(compare_tiles(noisy(1, 0.01), noisy(2, 0.01, 0.02), 8, 0.005, 0.95).verdict, Verdict::fails);
+}
+
 TEST(Tiles, AreUndecidedInTooMuchNoiseAndSayWhatWouldDecide) {
     const TileComparison t = compare_tiles(noisy(1, 0.3), noisy(2, 0.3), 8, 0.005);
     EXPECT_EQ(t.verdict, Verdict::undecided);

@@ -85,6 +85,21 @@ TEST(Parameters, ValuesThatAreNoGoodAreRefused) {
     EXPECT_EQ(p.number("orb.radius_mm"), 68) << "a refused value changes nothing";
 }
 
+TEST(Parameters, APathIsAnyTextAndItsFileIsReadOnlyByTheReaderThatWasGiven) {
+    const std::vector<ParameterSpec> specs{{.name = "hand.mesh", .description = "a mesh", .path = true}};
+    Parameters p(specs, Preset::text);
+    EXPECT_EQ(p.word("hand.mesh"), "");
+    EXPECT_EQ(p.text("hand.mesh"), "");
+    p.set("hand.mesh", "my \"hand\"; rm -rf.obj");
+    EXPECT_EQ(p.word("hand.mesh"), "my \"hand\"; rm -rf.obj");
+    EXPECT_THAT(error_of([&] { p.set("hand.mesh", 1); }), HasSubstr("name of a file"));
+    EXPECT_THAT(error_of([&] { p.files().mesh(p.word("hand.mesh")); }, Exit::internal), HasSubstr("rm -rf.obj"));
+
+    FileReader reader = no_files();
+    reader.mesh = [](const std::string &path) { return Mesh{{Vec3(double(path.size()))}, {}, {}, {}}; };
+    EXPECT_EQ(Parameters(specs, Preset::text, reader).files().mesh("four").vertices_mm[0].x, 4);
+}
+
 TEST(Parameters, AnAssignmentNeedsANameAndAnEqualsSign) {
     EXPECT_EQ(parse_assignment("a=b=c").value, "b=c");
     error_of([] { parse_assignment("a"); }, Exit::usage);

@@ -4,9 +4,11 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "exporter/file_reader.h"
 #include "exporter/scene_json.h"
 #include "scenes/validate.h"
 #include "tools/commands.h"
+#include "verifier/report/text.h"
 
 namespace threefold {
 
@@ -21,7 +23,7 @@ std::vector<Assignment> parse_size(const std::string &size) {
 }
 
 Parameters parameters_of(const SceneRecipe &recipe, const SceneRequest &request) {
-    Parameters values(recipe.parameters, parse_preset(request.preset));
+    Parameters values(recipe.parameters, parse_preset(request.preset), file_reader());
     for (const Assignment &a : parse_size(request.size)) values.set(a.name, a.value);
     for (const std::string &text : request.assignments) {
         const Assignment a = parse_assignment(text);
@@ -60,8 +62,15 @@ Exit command_list(const Shop &shop, bool json) {
 namespace {
 
 std::string range_of(const ParameterSpec &s) {
-    return s.choices.empty() ? fmt::format("[{:g}, {:g}]", s.least, s.greatest)
-                             : fmt::format("{}", fmt::join(s.choices, "|"));
+    if (s.path) return "a file";
+    return s.is_number() ? fmt::format("[{:g}, {:g}]", s.least, s.greatest)
+                         : fmt::format("{}", fmt::join(s.choices, "|"));
+}
+
+/// A file may have any name, and a table row has one line.
+std::string value_of(const Parameters &values, const ParameterSpec &s) {
+    if (!s.path) return values.text(s.name);
+    return values.word(s.name).empty() ? "generated" : shell_quoted(report::one_line(values.word(s.name)));
 }
 
 std::string unit_of(const std::string &name) {
@@ -84,7 +93,12 @@ Exit command_show(const Shop &shop, const SceneRequest &request, bool json) {
                  {"parameters", Json::object()}};
         for (const ParameterSpec &s : recipe.parameters) {
             Json p{{"description", s.description}, {"unit", unit_of(s.name)}};
-            if (s.choices.empty())
+            if (s.path)
+                p.update({{"value", report::valid_utf8(values.word(s.name))},
+                          {"text", ""},
+                          {"published", ""},
+                          {"file", true}});
+            else if (s.is_number())
                 p.update({{"value", values.number(s.name)},
                           {"text", s.text},
                           {"published", s.published},
@@ -103,8 +117,8 @@ Exit command_show(const Shop &shop, const SceneRequest &request, bool json) {
     fmt::print("  {:<28} {:>12} {:>12} {:>12}  {:<4} {:<24} {}\n", "parameter", "value", "text", "published", "unit",
                "range", "meaning");
     for (const ParameterSpec &s : recipe.parameters)
-        fmt::print("  {:<28} {:>12} {:>12} {:>12}  {:<4} {:<24} {}\n", s.name, values.text(s.name), text.text(s.name),
-                   published.text(s.name), unit_of(s.name), range_of(s), s.description);
+        fmt::print("  {:<28} {:>12} {:>12} {:>12}  {:<4} {:<24} {}\n", s.name, value_of(values, s), value_of(text, s),
+                   value_of(published, s), unit_of(s.name), range_of(s), s.description);
     const Needs n = needs(scene);
     std::vector<std::string> wants;
     if (n.ray_tree) wants.emplace_back("a tree of reflected and refracted rays");

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <string_view>
 #include <vector>
 
@@ -140,16 +141,14 @@ void require_magnitude(const std::filesystem::path &path, const Image &image, do
                                                             path.string(), column, row, v));
 }
 
-} // namespace
-
-Image read_image(const std::filesystem::path &path, Encoding encoding) {
+std::unique_ptr<OIIO::ImageInput> open_picture(const std::filesystem::path &path) {
     const std::int64_t bytes = require_readable_file(path);
     if (bytes == 0) throw_bad_picture(path, "the file is empty");
 
     OIIO::ImageSpec config;
     config.attribute("oiio:UnassociatedAlpha", 1);
     // ImageInput, not ImageBuf: that one may answer with the pixels of an earlier file of the same name.
-    const auto input = OIIO::ImageInput::open(path.string(), &config);
+    auto input = OIIO::ImageInput::open(path.string(), &config);
     if (!input) throw_bad_picture(path, OIIO::geterror());
     const OIIO::ImageSpec &spec = input->spec();
     if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1 || spec.deep)
@@ -157,7 +156,19 @@ Image read_image(const std::filesystem::path &path, Encoding encoding) {
     const auto native_bytes = static_cast<std::int64_t>(spec.image_bytes(true));
     if (spec.image_pixels() > static_cast<OIIO::imagesize_t>(max_pixels) || native_bytes / max_compression > bytes)
         throw_bad_picture(path, fmt::format("{} x {} pixels in {} bytes cannot be", spec.width, spec.height, bytes));
+    return input;
+}
 
+} // namespace
+
+glm::ivec2 picture_size_px(const std::filesystem::path &path) {
+    const auto input = open_picture(path);
+    return {input->spec().width, input->spec().height};
+}
+
+Image read_image(const std::filesystem::path &path, Encoding encoding) {
+    const auto input = open_picture(path);
+    const OIIO::ImageSpec &spec = input->spec();
     const int channels = spec.nchannels < 3 ? 1 : 3;
     Image image(spec.width, spec.height);
     const bool whole = spec.format == OIIO::TypeDesc::UINT8    ? read_integers<std::uint8_t>(*input, channels, image)

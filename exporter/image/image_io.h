@@ -6,6 +6,8 @@
 #include <map>
 #include <string>
 
+#include <glm/vec2.hpp>
+
 #include "exporter/image/image.h"
 
 namespace threefold {
@@ -18,6 +20,9 @@ enum class Encoding { declared, linear };
 /// multiplied by alpha. Throws Error(input_output) when the file is missing or cannot be read, Error(bad_data) when it
 /// is corrupt, truncated, empty, or holds NaN or infinity; the message names the file.
 Image read_image(const std::filesystem::path &path, Encoding encoding = Encoding::declared);
+
+/// Width and height, without the pixels; throws like read_image.
+glm::ivec2 picture_size_px(const std::filesystem::path &path);
 
 /// The format follows the extension: .exr (32-bit float), .tif (64-bit float, lossless for the tracer), .png (8-bit
 /// sRGB preview of radiance 0 to 1). `metadata` becomes header attributes (in a .tif, lines of the image description).

@@ -15,6 +15,8 @@ std::vector<SceneRecipe> built_in_scenes() {
         three_lines_bent_scene(),
         three_lines_setup_scene(),
         folds_scene(),
+        salvator_scene(),
+        setup_scene(),
     };
 }
 

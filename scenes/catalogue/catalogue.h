@@ -12,6 +12,8 @@ SceneRecipe calibration_scene();
 SceneRecipe solid_scene();
 SceneRecipe hollow_scene();
 SceneRecipe furnace_scene();
+SceneRecipe salvator_scene();
+SceneRecipe setup_scene();
 SceneRecipe soft_light_scene();
 SceneRecipe three_lines_hollow_scene();
 SceneRecipe three_lines_solid_scene();

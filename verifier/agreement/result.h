@@ -50,6 +50,7 @@ struct TileComparison {
     double worst_difference = 0; ///< of the tile means, signed
     int worst_column = 0, worst_row = 0;
     int holding = 0, failing = 0, open = 0; ///< tiles by their own interval
+    double needed_share = 1;                ///< of all tiles must hold
     Verdict verdict = Verdict::undecided;
     std::optional<int> replicates_to_decide;
 };

@@ -26,8 +26,6 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-constexpr int tile_px = 8;
-
 struct PlannedClaim {
     const Claim *claim;
     ClaimContext context;
@@ -322,7 +320,7 @@ private:
                 const Testimony &a = testimonies[i], &b = testimonies[j];
                 const std::vector<BudgetItem> budget =
                     e.tile_budget(a.rendered.record.accuracy, b.rendered.record.accuracy);
-                TileComparison tiles = compare_tiles(a.rendered.images, b.rendered.images, tile_px, total(budget));
+                TileComparison tiles = compare_tiles(a.rendered.images, b.rendered.images, e.tile_px, total(budget), e.tiles_needed_share);
                 tiles.experiment = e.name;
                 tiles.witness = a.witness->name;
                 tiles.versus = b.witness->name;

@@ -52,6 +52,8 @@ struct Experiment {
     std::function<std::vector<Reading>(const Image &, const Camera &camera)> measure;
     /// Tolerance on the mean of a tile (absolute radiance); empty function: pictures are not compared tile by tile.
     std::function<std::vector<BudgetItem>(const Accuracy &, const Accuracy &)> tile_budget;
+    int tile_px = 8;
+    double tiles_needed_share = 1; ///< of all tiles must hold
     /// What was measured on the picture, and what was expected, to be drawn on it in the report.
     std::function<std::vector<Mark>(const Image &, const Camera &camera)> draw;
 };
@@ -89,6 +91,8 @@ Claim claim_calibration();
 Claim claim_energy();
 Claim claim_solid_vs_hollow();
 Claim claim_rim_reads_wall();
+Claim claim_salvator();
+Claim claim_setup();
 Claim claim_soft_light();
 Claim claim_three_lines();
 Claim claim_folds();

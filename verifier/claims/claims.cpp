@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "exporter/file_reader.h"
 #include "scenes/error.h"
 #include "scenes/validate.h"
 #include "verifier/claims/claim.h"
@@ -20,6 +21,8 @@ std::vector<Claim> built_in_claims() {
         claim_folds(),
         claim_wall_limit(),
         claim_shift(),
+        claim_salvator(),
+        claim_setup(),
     };
 }
 
@@ -38,7 +41,7 @@ Experiment ClaimContext::experiment(std::string name, std::string title, std::st
                                     const std::vector<Assignment> &defaults,
                                     const std::vector<Assignment> &fixed) const {
     const SceneRecipe &recipe = find_scene(scenes, scene);
-    Parameters values(recipe.parameters, preset);
+    Parameters values(recipe.parameters, preset, file_reader());
     for (const Assignment &a : defaults) values.set(a.name, a.value);
     for (const Assignment &a : assignments)
         if (values.has(a.name)) values.set(a.name, a.value);

@@ -131,6 +131,7 @@ Json from_tiles(const TileComparison &t) {
         {"holding", t.holding},
         {"failing", t.failing},
         {"open", t.open},
+        {"needed_share", real(t.needed_share)},
         {"verdict", to_string(t.verdict)},
         {"replicates_to_decide", or_null(t.replicates_to_decide)},
     };

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#include "verifier/claims/whole_picture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "verifier/claims/prediction.h"
+#include "verifier/claims/unshadowed.h"
+
+namespace threefold {
+
+namespace {
+
+constexpr double tile_share = 0.024;  ///< of the predicted mean: shadows make the picture darker than predicted
+constexpr double tiles_needed = 0.99; ///< a renderer's facets may show in one tile of a hundred
+constexpr double border_px = 0.05;
+
+std::vector<Assignment> size_of(int width_px, int height_px) {
+    return {assign("image.width_px", width_px), assign("image.height_px", height_px)};
+}
+
+double pixel_at_orb_mm(const Scene &scene, const OrbInScene &orb) {
+    return 2 * film_half_width(scene.camera) / scene.camera.width_px * glm::length(scene.camera.eye_mm - orb.centre_mm);
+}
+
+} // namespace
+
+Experiment whole_picture(const ClaimContext &context, const std::string &scene, int width_px, int height_px) {
+    std::vector<Assignment> defaults = size_of(width_px, height_px);
+    // Fewer facets and fewer lights than the scene's own: what they are makes no difference to whether renderers agree.
+    defaults.push_back(assign("robe.relief_resolution", 150));
+    defaults.push_back(assign("environment.dome_directions", 12));
+    Experiment e = context.experiment(scene + "-picture", "the lit and painted scene, to be compared tile by tile",
+                                      scene, defaults, {assign("figure.surface", "painted")});
+    // One ray a pixel, through another point of it in each replicate and through the same one in all renderers.
+    e.sampling = Sampling::pixel_centres;
+    e.samples_per_pixel = context.quick ? 24 : 48;
+    e.shift_replicates = true;
+    e.replicates = context.quick ? 4 : 6;
+    e.cut_weight = 1e-3;
+    e.tile_px = 16;
+    e.tiles_needed_share = tiles_needed;
+    const double pixel = pixel_at_orb_mm(e.scene, orb_of(e.scene));
+    e.surface_tolerance_mm = 0.01 * pixel;
+    const double mean = unshadowed_mean_radiance(e.scene);
+    e.tile_budget = [=](const Accuracy &, const Accuracy &) {
+        return std::vector<BudgetItem>{
+            {"resolution", tile_share * mean,
+             fmt::format("{:.2g} % of the picture's mean radiance as it would be without shadows ({:.3g}), the least "
+                         "difference that matters here; quantisation, tessellation and cut ray trees lie far below it",
+                         100 * tile_share, mean)}};
+    };
+    return e;
+}
+
+Experiment border_experiment(const ClaimContext &context, const std::string &scene, int width_px, int height_px,
+                             const Border &border) {
+    std::vector<Assignment> defaults = size_of(width_px, height_px);
+    defaults.push_back(assign("robe.relief_resolution", 50));
+    Experiment e =
+        context.experiment(scene + "-border", fmt::format("where the {}'s border lies", border.object), scene, defaults,
+                           {assign("figure.surface", "identity"), assign("glass.coating", "antireflective")});
+    e.sampling = Sampling::box;
+    e.samples_per_pixel = 64;
+    e.replicates = 4;
+    e.surface_tolerance_mm = 0.1 * pixel_at_orb_mm(e.scene, orb_of(e.scene));
+    const Camera camera = e.scene.camera;
+    const int top = camera.image_height_px() * 2 / 5, bottom = std::max(top + 1, camera.image_height_px() / 2);
+    const std::string quantity = fmt::format("left border of the {}", border.object);
+    const auto expected = [=](const Camera &from) {
+        double sum = 0;
+        for (int row = top; row < bottom; ++row) sum += border.column_px(from, row + 0.5);
+        return sum / (bottom - top);
+    };
+    const double where = expected(camera);
+    const int width = camera.image_width_px();
+    if (camera.crop || !(where > 1 && where < width - 1)) return e; // not in this picture
+    e.predict = [=](const Accuracy &) {
+        return std::vector<Expected>{
+            {quantity,
+             "px",
+             Relation::equal,
+             where,
+             {{"sampling", border_px, "a border's place by the coverage of pixels, each from a finite grid of rays"}}}};
+    };
+    e.measure = [=](const Image &image, const Camera &) {
+        double sum = 0;
+        for (int row = top; row < bottom; ++row) {
+            double before = 0;
+            for (int column = 0; column < image.width; ++column) {
+                const double inside = glm::dot(image.at(column, row), border.inside);
+                before += 1 - std::clamp(inside, 0.0, 1.0);
+                if (inside > 0.99) break;
+            }
+            sum += before;
+        }
+        return std::vector<Reading>{{quantity, sum / (bottom - top)}};
+    };
+    e.draw = [=](const Image &, const Camera &from) {
+        return std::vector<Mark>{{Mark::Kind::line,
+                                  {border.column_px(from, top), static_cast<double>(top)},
+                                  {border.column_px(from, bottom), static_cast<double>(bottom)},
+                                  0,
+                                  Mark::Meaning::expected,
+                                  quantity}};
+    };
+    return e;
+}
+
+} // namespace threefold

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// What the claims about whole pictures share: lit, textured pictures that carry no number of their own and are compared
+// as pictures; and one border in them whose place is known, so that a picture of something else is noticed.
+#pragma once
+
+#include "verifier/claims/claim.h"
+
+namespace threefold {
+
+/// The picture, to be compared tile by tile in 99 % of its tiles.
+Experiment whole_picture(const ClaimContext &context, const std::string &scene, int width_px, int height_px);
+
+/// A border that runs up and down the picture: it is found as where the colour `inside` begins, counted from the left
+/// edge of the picture in pixels, mean over the rows [top_px, bottom_px).
+struct Border {
+    std::string object;
+    Rgb inside;
+    std::function<double(const Camera &camera, double row_px)> column_px;
+};
+
+/// The same scene in flat colours of identity, and where its border lies.
+Experiment border_experiment(const ClaimContext &context, const std::string &scene, int width_px, int height_px,
+                             const Border &border);
+
+} // namespace threefold
