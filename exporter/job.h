@@ -38,7 +38,7 @@ struct Accuracy {
     double filter_px = 0;          ///< standard deviation of the sample position under Sampling::pixel_centres
     double cut_weight = 0;         ///< branches below this weight are dropped; 0: none is dropped
     bool cuts_whole_trees = false; ///< cut_weight bounds all that is dropped of a ray's tree, not each branch
-    bool random_branches = false;  ///< follows one branch at random where light splits: its noise is much larger
+    bool random_branches = false;  ///< follows one branch where light splits, or one light, at random: much more noise
 };
 
 struct ExportedFile {

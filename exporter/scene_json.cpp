@@ -131,6 +131,8 @@ Json to_json(const Scene &scene) {
     for (const Directional &light : scene.lights)
         json["lights"].push_back({{"travel", to_json(light.travel)}, {"irradiance", to_json(light.irradiance)}});
     json["environment"] = scene.environment ? to_json(scene.environment->radiance) : Json(nullptr);
+    if (scene.environment && scene.environment->dome_directions > 0)
+        json["dome_directions"] = scene.environment->dome_directions;
     json["glass_shadow"] = to_json(scene.glass_shadow);
     json["camera"] = to_json(scene.camera);
     return json;

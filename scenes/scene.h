@@ -68,7 +68,8 @@ struct Diffuse {
     Paint reflectance = Rgb(0.5);
 };
 
-/// Emits the same radiance in all directions, from both sides, and reflects nothing.
+/// Emits the same radiance in all directions, from both sides, and reflects nothing. A thing to be seen: it casts
+/// shadows, and lights no diffuse surface.
 struct Emissive {
     Paint radiance = Rgb(1);
 };
@@ -114,9 +115,11 @@ struct Directional {
     Rgb irradiance{1};
 };
 
-/// The same radiance from every direction.
+/// The same radiance from every direction. Diffuse surfaces are lit by it as by a dome of so many parallel lights
+/// (scenes/light.h), which every renderer can say exactly; without a dome it would have to be an integral.
 struct Environment {
     Rgb radiance{0};
+    int dome_directions = 0;
 };
 
 /// How light passes glass on its way to a diffuse surface. `constant`: the whole orb lets through the share

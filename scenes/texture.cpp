@@ -30,4 +30,17 @@ Rgb sample(const Paint &paint, Vec2 uv) {
                       paint);
 }
 
+Rgb greatest_value(const Paint &paint) {
+    return std::visit(overloaded{
+                          [](const Rgb &colour) { return colour; },
+                          [](const std::shared_ptr<const Texture> &texture) {
+                              std::uint16_t most[3]{};
+                              for (std::size_t i = 0; i < texture->rgb.size(); ++i)
+                                  most[i % 3] = std::max(most[i % 3], texture->rgb[i]);
+                              return Rgb(most[0], most[1], most[2]) / 65535.0;
+                          },
+                      },
+                      paint);
+}
+
 } // namespace threefold

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <unistd.h>
 
 #include <fmt/format.h>
@@ -11,6 +12,8 @@
 #include "scenes/access.h"
 #include "scenes/camera.h"
 #include "scenes/error.h"
+#include "scenes/light.h"
+#include "scenes/texture.h"
 
 namespace threefold {
 
@@ -196,16 +199,7 @@ void validate(const Camera &camera) {
                            camera.image_width_px(), camera.image_height_px(), wanted / 1e9, memory / 1e9));
 }
 
-double greatest_radiance(const Paint &paint) {
-    return std::visit(
-        overloaded{
-            [](const Rgb &c) {
-                return std::max({c.r, c.g, c.b});
-            },
-            [](const std::shared_ptr<const Texture> &t) { return *std::ranges::max_element(t->rgb) / 65535.0; },
-        },
-        paint);
-}
+double greatest(const Rgb &c) { return std::max({c.r, c.g, c.b}); }
 
 } // namespace
 
@@ -216,8 +210,9 @@ double picture_memory_bytes(const Camera &camera) {
 Needs needs(const Scene &scene) {
     Needs n;
     bool diffuse = false;
-    Rgb direct(0);
-    for (const Directional &light : scene.lights) direct += light.irradiance / 3.141592653589793;
+    const std::vector<Directional> lights = lights_on_diffuse(scene);
+    Rgb irradiance(0);
+    for (const Directional &light : lights) irradiance += light.irradiance;
     for (const Object &object : scene.objects) {
         if (const Glass *glass = glass_of(object.shape)) {
             n.glass = true;
@@ -229,19 +224,20 @@ Needs needs(const Scene &scene) {
                 std::visit(overloaded{
                                [&](const Diffuse &d) {
                                    diffuse = true;
-                                   return greatest_radiance(d.reflectance) * std::max({direct.r, direct.g, direct.b});
+                                   return greatest(greatest_value(d.reflectance) * irradiance) / std::numbers::pi;
                                },
-                               [](const Emissive &e) { return greatest_radiance(e.radiance); },
+                               [](const Emissive &e) { return greatest(greatest_value(e.radiance)); },
                                [](const CoordinateCard &) { return 1.0; },
                            },
                            *surface));
     }
     if (scene.environment) {
-        const Rgb &e = scene.environment->radiance;
-        n.environment_on_diffuse = diffuse && e != Rgb(0);
-        n.greatest_radiance = std::max({n.greatest_radiance, e.r, e.g, e.b});
+        const Environment &e = *scene.environment;
+        n.environment_on_diffuse = diffuse && e.radiance != Rgb(0) && e.dome_directions == 0;
+        n.greatest_radiance = std::max(n.greatest_radiance, greatest(e.radiance));
     }
-    n.direct_light = diffuse && !scene.lights.empty();
+    n.direct_light = diffuse && !lights.empty();
+    n.many_lights = diffuse && lights.size() > 1;
     n.glass_shadow = n.glass && n.direct_light && scene.glass_shadow.rule != GlassShadow::Rule::none;
     n.caustics = n.glass_shadow && scene.glass_shadow.rule == GlassShadow::Rule::caustic;
     return n;
@@ -260,7 +256,12 @@ void validate(const Scene &scene) {
         require_positive(glm::length(light.travel), "the length of a light's direction");
         require_colour(light.irradiance, "a light's irradiance");
     }
-    if (scene.environment) require_colour(scene.environment->radiance, "the environment's radiance");
+    if (scene.environment) {
+        require_colour(scene.environment->radiance, "the environment's radiance");
+        constexpr int most_directions = 10'000;
+        if (const int n = scene.environment->dome_directions; n < 0 || n > most_directions)
+            refuse(fmt::format("the environment's dome may have up to {} directions, not {}", most_directions, n));
+    }
     if (!(scene.glass_shadow.transmittance >= 0 && scene.glass_shadow.transmittance <= 1))
         refuse(fmt::format("the glass shadow's transmittance must lie in [0, 1], not {}",
                            scene.glass_shadow.transmittance));

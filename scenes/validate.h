@@ -17,8 +17,9 @@ void validate(const Scene &scene);
 struct Needs {
     bool glass = false;
     bool ray_tree = false;               ///< some glass splits a ray (Coating::fresnel)
-    bool direct_light = false;           ///< directional lights reach a diffuse surface
-    bool environment_on_diffuse = false; ///< the environment lights a diffuse surface
+    bool direct_light = false;           ///< parallel lights reach a diffuse surface, those of a dome among them
+    bool many_lights = false;            ///< more than one of them: a renderer may choose between them at random
+    bool environment_on_diffuse = false; ///< the environment lights a diffuse surface, and no dome stands for it
     bool glass_shadow = false;           ///< glass stands between a light and a diffuse surface by the scene's rule
     bool caustics = false;
     double greatest_radiance = 0; ///< upper bound over the picture; glass never amplifies

@@ -313,7 +313,9 @@ def set_world(scene, radiance):
     scene.world = world
     nodes = Nodes(world)
     nodes.add("ShaderNodeOutputWorld", nodes.add("ShaderNodeBackground", colour(radiance), 1.0).outputs[0])
-    world.cycles.sampling_method = "NONE"  # it lights no diffuse surface
+    # It lights no diffuse surface: parallel lights stand for it there.
+    world.cycles.sampling_method = "NONE"
+    put(world.cycles_visibility, diffuse=False)
 
 
 def add_camera(scene, camera):

@@ -14,6 +14,7 @@
 #include "exporter/blender/to_blender.h"
 #include "scenes/access.h"
 #include "scenes/camera.h"
+#include "scenes/light.h"
 #include "scenes/validate.h"
 
 namespace threefold {
@@ -36,11 +37,33 @@ std::vector<Sphere> outer_spheres(const Scene &scene) {
     return spheres;
 }
 
-Json write_light(const Directional &light) {
-    const double strength = std::max({light.irradiance.r, light.irradiance.g, light.irradiance.b});
-    return {{"towards", to_json(glm::normalize(ToBlender::direction(-light.travel)))},
-            {"strength", strength},
-            {"colour", to_json(strength > 0 ? light.irradiance / strength : Rgb(0))}};
+double strength_of(const Directional &light) {
+    return std::max({light.irradiance.r, light.irradiance.g, light.irradiance.b});
+}
+
+/// Cycles chooses one light for each sample, all alike: a strong one among weak ones is most of the noise. Several suns
+/// in the place of one, as strong as the others, are the same light, and are chosen as often as they matter.
+constexpr double most_copies = 64;
+
+Json write_lights(const std::vector<Directional> &lights) {
+    double sum = 0, squares = 0;
+    for (const Directional &light : lights) {
+        sum += strength_of(light);
+        squares += strength_of(light) * strength_of(light);
+    }
+    // The mean strength, each light weighted by its own; half of it, so that lights of the usual strength stay whole.
+    const double usual = sum > 0 ? squares / sum / 2 : 1;
+    Json suns = Json::array();
+    for (const Directional &light : lights) {
+        const double strength = strength_of(light);
+        if (!(strength > 0)) continue;
+        const double copies = std::clamp(std::round(strength / usual), 1.0, most_copies);
+        const Json sun{{"towards", to_json(glm::normalize(ToBlender::direction(-light.travel)))},
+                       {"strength", strength / copies},
+                       {"colour", to_json(light.irradiance / strength)}};
+        for (int i = 0; i < static_cast<int>(copies); ++i) suns.push_back(sun);
+    }
+    return suns;
 }
 
 /// The film is the crop alone, a window that is shifted off the axis.
@@ -102,15 +125,13 @@ Json write_replicates(const RenderJob &job, CyclesScene &made) {
 }
 
 /// Glass chooses between reflection and refraction at random, a lit surface between the lights; all else is certain.
-bool is_random(const RenderJob &job, const Needs &needs) {
-    return needs.ray_tree || (needs.direct_light && job.scene.lights.size() > 1);
-}
+bool is_random(const Needs &needs) { return needs.ray_tree || needs.many_lights; }
 
 Json write_sampling(const RenderJob &job, const Needs &needs) {
     switch (job.sampling) {
     case Sampling::pixel_centres:
         return {{"filter", "GAUSSIAN"},
-                {"samples", is_random(job, needs) ? job.samples_per_pixel : 1},
+                {"samples", is_random(needs) ? job.samples_per_pixel : 1},
                 {"window", needs.ray_tree}};
     case Sampling::box:
         return {{"filter", "BOX"}, {"samples", job.samples_per_pixel}, {"window", needs.ray_tree}};
@@ -124,8 +145,8 @@ void refuse_what_cannot_be_said(const Scene &scene, const Needs &needs, const Fr
             "caustics through glass are not supported: path tracing finds hardly any, and the quicker way loses energy",
             "choose the glass shadow none, opaque or constant");
     if (needs.environment_on_diffuse)
-        refuse_for_cycles("an environment that lights a diffuse surface is not yet supported by this exporter",
-                          "leave out the environment, or make the surface emissive");
+        refuse_for_cycles("the environment's light on a diffuse surface would be an integral",
+                          "give the environment a dome of parallel lights, or make the surface emissive");
     const std::vector<Sphere> orbs = outer_spheres(scene);
     double reach_mm = 0; // farthest point of glass from the origin: there numbers are coarsest
     for (const Sphere &orb : orbs) {
@@ -194,24 +215,22 @@ CyclesScene describe_for_cycles(const RenderJob &job) {
     CyclesObjects objects = describe_objects(job, to_blender);
     made.files = std::move(objects.files);
     made.accuracy.surface_mm = objects.surface_mm;
-    Json lights = Json::array();
-    for (const Directional &light : scene.lights) lights.push_back(write_light(light));
     made.python = python({{"name", scene.name},
                           {"unit_mm", unit_mm},
                           {"origin_mm", to_json(frame.origin_mm)},
                           {"camera", write_camera(scene.camera, frame, to_blender)},
                           {"sampling", write_sampling(job, required)},
                           {"environment", to_json(scene.environment ? scene.environment->radiance : Rgb(0))},
-                          {"lights", lights},
+                          {"lights", required.direct_light ? write_lights(lights_on_diffuse(scene)) : Json::array()},
                           {"objects", objects.list},
                           {"replicates", write_replicates(job, made)}});
 
-    made.accuracy.random_branches = required.ray_tree;
+    made.accuracy.random_branches = is_random(required);
     made.accuracy.radiance_step = required.greatest_radiance * float_epsilon / 2;
     made.accuracy.rounding_mm = float_epsilon * frame.extent_mm;
     // The first sample goes just through the pixel's centre. Blender's Gaussian of width w, which spreads the others,
     // is exp(-2 (6 x / w)^2): standard deviation w / 12, and 0.01 is its least width.
-    if (job.sampling == Sampling::pixel_centres && is_random(job, required)) made.accuracy.filter_px = 0.01 / 12;
+    if (job.sampling == Sampling::pixel_centres && is_random(required)) made.accuracy.filter_px = 0.01 / 12;
     return made;
 }
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "exporter/povray/writer.h"
+#include "scenes/validate.h"
 
 namespace threefold {
 namespace {
@@ -112,7 +113,7 @@ std::string head(const RenderJob &job, const povray::Space &space, double radian
 
 Exported compile_povray(const RenderJob &job) {
     povray::refuse_what_cannot_be_said(job);
-    const double greatest = povray::greatest_radiance(job.scene);
+    const double greatest = needs(job.scene).greatest_radiance;
     povray::Writer writer{.job = job,
                           .space = povray::choose_space(job.scene),
                           .radiance_scale = greatest > 0 ? brightest / white / greatest : 1,

@@ -5,6 +5,9 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "scenes/light.h"
+#include "scenes/texture.h"
+
 namespace threefold::povray {
 namespace {
 
@@ -13,13 +16,6 @@ bool is_black(const Rgb &colour) { return colour.r <= 0 && colour.g <= 0 && colo
 bool is_diffuse(const Surface &surface) {
     return std::visit(overloaded{[](const Diffuse &diffuse) { return !is_black(greatest_value(diffuse.reflectance)); },
                                  [](const Emissive &) { return false; }, [](const CoordinateCard &) { return false; }},
-                      surface);
-}
-
-bool is_emitter(const Surface &surface) {
-    return std::visit(overloaded{[](const Diffuse &) { return false; },
-                                 [](const Emissive &emissive) { return !is_black(greatest_value(emissive.radiance)); },
-                                 [](const CoordinateCard &) { return true; }},
                       surface);
 }
 
@@ -47,12 +43,10 @@ void refuse_what_cannot_be_said(const RenderJob &job) {
     const Scene &scene = job.scene;
     if (job.replicates.empty()) refuse("no picture was asked for");
 
-    const Object *diffuse = nullptr, *emitter = nullptr, *glass = nullptr;
+    const Object *diffuse = nullptr, *glass = nullptr;
     for (const Object &object : scene.objects) {
-        if (const Surface *surface = surface_of(object.shape)) {
+        if (const Surface *surface = surface_of(object.shape))
             if (!diffuse && is_diffuse(*surface)) diffuse = &object;
-            if (!emitter && is_emitter(*surface)) emitter = &object;
-        }
         const std::optional<Orb> orb = orb_of(object.shape);
         if (!orb) continue;
         glass = &object;
@@ -63,15 +57,11 @@ void refuse_what_cannot_be_said(const RenderJob &job) {
                                quoted(object.name), orb->glass.interface_transmittance));
     }
     if (!diffuse) return;
-    if (scene.environment && !is_black(scene.environment->radiance))
-        refuse(fmt::format("the environment's light on the diffuse surface {} is not supported yet",
+    if (scene.environment && !is_black(scene.environment->radiance) && scene.environment->dome_directions == 0)
+        refuse(fmt::format("the environment's light on the diffuse surface {} would be an integral",
                            quoted(diffuse->name)),
-               "use directional lights, or make the surface emissive");
-    if (emitter)
-        refuse(fmt::format("light from the emitter {} on the diffuse surface {} is not supported yet",
-                           quoted(emitter->name), quoted(diffuse->name)),
-               "use directional lights, or make both surfaces emissive");
-    if (glass && !scene.lights.empty() && scene.glass_shadow.rule == GlassShadow::Rule::caustic)
+               "give the environment a dome of parallel lights, or make the surface emissive");
+    if (glass && !lights_on_diffuse(scene).empty() && scene.glass_shadow.rule == GlassShadow::Rule::caustic)
         refuse("light that glass bends onto a diffuse surface cannot be computed to a stated accuracy",
                "use the glass shadow rule none, opaque or constant");
 }

@@ -63,8 +63,4 @@ std::string surface_texture(Writer &writer, const Surface &surface, bool by_uv);
 bool needs_uv(const Surface &surface);
 double glass_radius_mm(const Shape &shape);    ///< outer; 0 for the others
 
-Rgb greatest_value(const Paint &paint);
-/// A bound on every radiance that can be seen; glass never amplifies.
-double greatest_radiance(const Scene &scene);
-
 } // namespace threefold::povray

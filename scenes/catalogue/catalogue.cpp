@@ -8,7 +8,7 @@ std::vector<SceneRecipe> built_in_scenes() {
         calibration_scene(),
         solid_scene(),
         hollow_scene(),
-        furnace_scene(),
+        furnace_scene(), salvator_scene(), setup_scene(),
     };
 }
 

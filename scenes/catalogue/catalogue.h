@@ -12,5 +12,7 @@ SceneRecipe calibration_scene();
 SceneRecipe solid_scene();
 SceneRecipe hollow_scene();
 SceneRecipe furnace_scene();
+SceneRecipe salvator_scene();
+SceneRecipe setup_scene();
 
 } // namespace threefold

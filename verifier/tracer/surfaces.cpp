@@ -78,6 +78,7 @@ struct Surfaces::State {
     void add(std::size_t object, RTCGeometry geometry) {
         // The surface just left is passed over by name, in a filter, so that a ray may start on it at distance 0.
         rtcSetGeometryIntersectFilterFunction(geometry, pass_over_left);
+        rtcSetGeometryOccludedFilterFunction(geometry, pass_over_left);
         rtcCommitGeometry(geometry);
         rtcAttachGeometryByID(world, geometry, static_cast<unsigned>(object));
         rtcReleaseGeometry(geometry);
@@ -123,17 +124,23 @@ struct Surfaces::State {
             args->valid[0] = 0;
     }
 
+    RTCRay embree_ray(const Ray &ray) const {
+        RTCRay r{};
+        const Vec3 o = ray.origin_mm - origin;
+        r.org_x = static_cast<float>(o.x);
+        r.org_y = static_cast<float>(o.y);
+        r.org_z = static_cast<float>(o.z);
+        r.dir_x = static_cast<float>(ray.direction.x);
+        r.dir_y = static_cast<float>(ray.direction.y);
+        r.dir_z = static_cast<float>(ray.direction.z);
+        r.tfar = std::numeric_limits<float>::infinity();
+        r.mask = static_cast<unsigned>(-1);
+        return r;
+    }
+
     RTCRayHit shoot(const Ray &ray, const SurfaceHit *left) const {
         RTCRayHit hit{};
-        const Vec3 o = ray.origin_mm - origin;
-        hit.ray.org_x = static_cast<float>(o.x);
-        hit.ray.org_y = static_cast<float>(o.y);
-        hit.ray.org_z = static_cast<float>(o.z);
-        hit.ray.dir_x = static_cast<float>(ray.direction.x);
-        hit.ray.dir_y = static_cast<float>(ray.direction.y);
-        hit.ray.dir_z = static_cast<float>(ray.direction.z);
-        hit.ray.tfar = std::numeric_limits<float>::infinity();
-        hit.ray.mask = static_cast<unsigned>(-1);
+        hit.ray = embree_ray(ray);
         hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
         Query query;
         query.left = left;
@@ -148,6 +155,23 @@ struct Surfaces::State {
         rtcIntersect1(world, &query, &hit);
 #endif
         return hit;
+    }
+
+    bool is_blocked(const Ray &ray, const SurfaceHit *left) const {
+        RTCRay r = embree_ray(ray);
+        Query query;
+        query.left = left;
+#if RTC_VERSION_MAJOR >= 4
+        rtcInitRayQueryContext(&query);
+        RTCOccludedArguments arguments;
+        rtcInitOccludedArguments(&arguments);
+        arguments.context = &query;
+        rtcOccluded1(world, &r, &arguments);
+#else
+        rtcInitIntersectContext(&query);
+        rtcOccluded1(world, &query, &r);
+#endif
+        return r.tfar < 0; // how Embree says so
     }
 
     /// The hit in double precision: the plane and the coordinates from the scene's own numbers.
@@ -245,6 +269,13 @@ std::optional<SurfaceHit> Surfaces::intersect(const Ray &ray, const SurfaceHit *
             hit = state_->refine(ray, found);
     state_->meet_rectangles(ray, left, hit);
     return hit;
+}
+
+bool Surfaces::blocks(const Ray &ray, const SurfaceHit &left) const {
+    if (state_->count > 0 && state_->is_blocked(ray, &left)) return true;
+    std::optional<SurfaceHit> hit;
+    state_->meet_rectangles(ray, &left, hit);
+    return hit.has_value();
 }
 
 Rgb Surfaces::emitted(const SurfaceHit &hit) const {

@@ -30,6 +30,9 @@ public:
 
     std::optional<SurfaceHit> intersect(const Ray &ray, const SurfaceHit *left = nullptr) const;
 
+    /// Is anything in the way of a ray that leaves a surface at `left`?
+    bool blocks(const Ray &ray, const SurfaceHit &left) const;
+
     /// Radiance of an emitter, or reflectance of a diffuse surface, at a hit.
     Rgb emitted(const SurfaceHit &hit) const;
     std::optional<Rgb> reflectance(const SurfaceHit &hit) const;

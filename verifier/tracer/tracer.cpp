@@ -18,6 +18,7 @@
 #include "scenes/camera.h"
 #include "scenes/error.h"
 #include "scenes/validate.h"
+#include "verifier/tracer/lights.h"
 #include "verifier/tracer/orb.h"
 #include "verifier/tracer/sampler.h"
 #include "verifier/tracer/surfaces.h"
@@ -57,14 +58,18 @@ template <class Real>
 class World {
 public:
     World(const Scene &scene, const TreeEnd<Real> &end)
-        : scene_(scene), end_(end), orbs_(orbs_of<Real>(scene)), surfaces_(scene, std::is_same_v<Real, double>) {}
+        : scene_(scene), end_(end), orbs_(orbs_of<Real>(scene)), surfaces_(scene, std::is_same_v<Real, double>),
+          lights_(lights_on_diffuse(scene)) {}
 
     /// What one thread and one sample carry along.
     struct Path {
         std::deque<TreeScratch<Real>> scratch;
         PixelSampler *sampler = nullptr;
+        LightShare lights;
         double dropped = 0;
     };
+
+    const Lights &lights() const { return lights_; }
 
     /// `left` is the orb that the ray has just left, if any: it cannot meet it again.
     Rgb radiance(const RayOf<Real> &ray, double weight, std::size_t left, int depth, Path &path) const {
@@ -72,7 +77,7 @@ public:
         const std::size_t orb = nearest_orb(ray, left, entry);
         const Ray exact{Vec3(ray.origin), Vec3(ray.direction)};
         const auto hit = surfaces_.intersect(exact);
-        if (hit && (orb == none || hit->distance <= static_cast<double>(entry.distance))) return leaving(*hit);
+        if (hit && (orb == none || hit->distance <= static_cast<double>(entry.distance))) return leaving(*hit, path.lights);
         if (orb == none) return scene_.environment ? scene_.environment->radiance : Rgb(0);
         if (depth >= greatest_depth) {
             path.dropped += weight;
@@ -107,22 +112,21 @@ private:
         return found;
     }
 
-    Rgb leaving(const SurfaceHit &hit) const {
+    Rgb leaving(const SurfaceHit &hit, LightShare share) const {
         const auto reflectance = surfaces_.reflectance(hit);
         if (!reflectance) return surfaces_.emitted(hit);
         Rgb irradiance(0);
-        for (const Directional &light : scene_.lights) {
-            const Vec3 towards = -glm::normalize(light.travel);
-            const double cosine = glm::dot(towards, hit.normal);
-            if (cosine > 0) irradiance += light.irradiance * (cosine * passed(hit, towards));
-        }
+        lights_.for_each(share, [&](const Lights::Light &light, double factor) {
+            const double cosine = glm::dot(light.towards, hit.normal);
+            if (cosine > 0) irradiance += light.irradiance * (factor * cosine * passed(hit, light.towards));
+        });
         return *reflectance * irradiance / std::numbers::pi;
     }
 
     /// The share of a light that reaches a surface: opaque surfaces block, glass follows the scene's rule.
     double passed(const SurfaceHit &hit, Vec3 towards) const {
         const Ray shadow{hit.position, towards};
-        if (surfaces_.intersect(shadow, &hit)) return 0;
+        if (surfaces_.blocks(shadow, hit)) return 0;
         if (scene_.glass_shadow.rule == GlassShadow::Rule::none) return 1;
         const double through =
             scene_.glass_shadow.rule == GlassShadow::Rule::constant ? scene_.glass_shadow.transmittance : 0;
@@ -138,6 +142,7 @@ private:
     TreeEnd<Real> end_;
     std::vector<Orb<Real>> orbs_;
     Surfaces surfaces_;
+    Lights lights_;
 };
 
 double process_cpu_seconds() {
@@ -166,8 +171,10 @@ void render(const RenderJob &job, const TreeEnd<Real> &end, const std::function<
             PixelSampler sampler(replicate.seed, column, row);
             path.sampler = &sampler;
             path.dropped = 0;
+            const auto turn = static_cast<std::size_t>(sampler.next() * 65536);
             Rgb sum(0);
             for (int k = 0; k < samples; ++k) {
+                path.lights = world.lights().share(static_cast<std::size_t>(k), static_cast<std::size_t>(samples), turn);
                 const Vec2 at =
                     job.sampling == Sampling::pixel_centres
                         ? pixel_sample(camera, column, row)
@@ -207,7 +214,7 @@ TracerOutcome trace(const RenderJob &job, const TracerSettings &settings,
     const Needs n = needs(job.scene);
     if (n.caustics) throw Error(Exit::bad_data, "the tracer does not follow caustics onto diffuse surfaces");
     if (n.environment_on_diffuse)
-        throw Error(Exit::bad_data, "the tracer does not light diffuse surfaces by the environment");
+        throw Error(Exit::bad_data, "the tracer lights diffuse surfaces by parallel lights only: give the environment a dome of them");
     const auto start = std::chrono::steady_clock::now();
     const double cpu_start = process_cpu_seconds();
     TracerOutcome outcome;

@@ -154,7 +154,8 @@ std::vector<Witness> find_witnesses(const std::vector<std::string> &names) {
 
 Rendered render(const Witness &witness, RenderJob job, const RenderOptions &options) {
     validate(job.scene);
-    if (witness.adapter && job.sampling == Sampling::box && needs(job.scene).ray_tree)
+    const Needs needed = needs(job.scene);
+    if (witness.adapter && job.sampling == Sampling::box && (needed.ray_tree || needed.many_lights))
         job.samples_per_pixel *= witness.adapter->sample_factor;
     if (!witness.problem.empty()) throw Error(Exit::input_output, witness.problem);
     if (!witness.present())
