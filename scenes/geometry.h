@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <limits>
 
 #include <glm/geometric.hpp>
 
@@ -57,6 +57,14 @@ inline double distance_to_triangle(Vec3 p, const Triangle &t) {
     if (over_inside) return std::abs(glm::dot(p - t.a, normal)) / area;
     return std::min(
         {distance_to_segment(p, t.a, t.b), distance_to_segment(p, t.b, t.c), distance_to_segment(p, t.c, t.a)});
+}
+
+/// Of the nearest point of any triangle; infinite for a mesh without triangles.
+inline double distance_to(const Mesh &mesh, Vec3 p) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+        least = std::min(least, distance_to_triangle(p, triangle_of(mesh, i)));
+    return least;
 }
 
 } // namespace threefold
