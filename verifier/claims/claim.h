@@ -92,6 +92,7 @@ Claim claim_calibration();
 Claim claim_energy();
 Claim claim_solid_vs_hollow();
 Claim claim_hand_contact();
+Claim claim_palm();
 Claim claim_rim_reads_wall();
 
 /// `name=value` for whatever fmt can print, with all digits.
