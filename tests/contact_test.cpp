@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include <glm/vec4.hpp>
+
 #include "scenes/geometry.h"
 #include "verifier/measure/contact.h"
 

@@ -99,7 +99,7 @@ rlim_t memory_limit(const GuardedRequest &request) {
         for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(nowhere, stream);
     limit(RLIMIT_AS, memory);
     limit(RLIMIT_CORE, 0);
-    limit(RLIMIT_CPU, static_cast<rlim_t>(std::chrono::ceil<std::chrono::seconds>(request.time_limit).count()));
+    limit(RLIMIT_CPU, static_cast<rlim_t>(request.work_limit.count()));
     try {
         ::_exit(write_all(result, request.work()) ? exit_done : exit_no_room);
     } catch (const std::bad_alloc &) {
@@ -155,9 +155,9 @@ std::string all_of(int descriptor) {
     return bytes;
 }
 
-std::string describe_signal(int number, rlim_t memory) {
+std::string describe_signal(int number, rlim_t memory, std::chrono::seconds work_limit) {
     if (number == SIGKILL) return "its reader was killed, perhaps for want of memory";
-    if (number == SIGXCPU) return "it takes too long";
+    if (number == SIGXCPU) return fmt::format("it takes more than {} s of computing", work_limit.count());
     const char *name = ::sigdescr_np(number);
     return fmt::format("its reader crashed ({}; it had {:.1f} GB)", name ? name : "unknown signal",
                        double(memory) / 1e9);
@@ -196,7 +196,7 @@ GuardedResult run_guarded(const GuardedRequest &request) {
     }
     const int status = child.reap();
     if (WIFSIGNALED(status)) {
-        answer.failure = describe_signal(WTERMSIG(status), memory);
+        answer.failure = describe_signal(WTERMSIG(status), memory, request.work_limit);
         return answer;
     }
     switch (WEXITSTATUS(status)) {

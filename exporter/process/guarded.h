@@ -11,7 +11,8 @@ namespace threefold {
 
 struct GuardedRequest {
     std::function<std::string()> work; ///< runs in the child; an exception's text is the failure
-    std::chrono::milliseconds time_limit{std::chrono::minutes(2)};
+    std::chrono::milliseconds time_limit{std::chrono::minutes(10)}; ///< on the clock: other programs may be busy
+    std::chrono::seconds work_limit{120};                           ///< of its own computing
     std::int64_t memory_bytes = std::int64_t{6} << 30; ///< beyond what this process has; never over half the machine's
 };
 
