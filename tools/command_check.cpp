@@ -57,8 +57,11 @@ void print_plan(const CheckRequest &request) {
         for (const Claim &claim : request.claims) {
             fmt::print("{}{}\n", claim.name, request.presets.size() > 1 ? fmt::format(" ({})", to_string(preset)) : "");
             for (const Experiment &e : claim.experiments(context))
-                fmt::print("  {:<24} scene {:<20} {} x {} px, {} replicates\n", e.name, e.record.scene,
-                           e.scene.camera.image_width_px(), e.scene.camera.image_height_px(), e.replicates);
+                if (e.inspect)
+                    fmt::print("  {:<24} scene {:<20} nothing to render\n", e.name, e.record.scene);
+                else
+                    fmt::print("  {:<24} scene {:<20} {} x {} px, {} replicates\n", e.name, e.record.scene,
+                               e.scene.camera.image_width_px(), e.scene.camera.image_height_px(), e.replicates);
         }
     }
 }

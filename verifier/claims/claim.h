@@ -33,7 +33,7 @@ struct Reading {
     double value;
 };
 
-/// One scene of a claim, rendered K times by every renderer.
+/// One scene of a claim, rendered K times by every renderer; or only looked at, as each renderer would be given it.
 struct Experiment {
     std::string name;  ///< "solid-map"
     std::string title; ///< for people
@@ -48,6 +48,9 @@ struct Experiment {
     double cut_weight = 1e-6;
 
     std::function<std::vector<Expected>(const Accuracy &)> predict;
+    /// Instead of rendering: numbers that stand in the scene itself, without noise (`predict` is asked about an exact
+    /// Accuracy). Nothing is rendered, and none of what follows is used.
+    std::function<std::vector<Reading>(const Scene &)> inspect;
     /// `camera` is that of the replicate: film offset included.
     std::function<std::vector<Reading>(const Image &, const Camera &camera)> measure;
     /// Tolerance on the mean of a tile (absolute radiance); empty function: pictures are not compared tile by tile.
@@ -90,6 +93,8 @@ const Claim &find_claim(const std::vector<Claim> &claims, std::string_view name)
 Claim claim_calibration();
 Claim claim_energy();
 Claim claim_solid_vs_hollow();
+Claim claim_hand_contact();
+Claim claim_palm();
 Claim claim_rim_reads_wall();
 Claim claim_salvator();
 Claim claim_setup();

@@ -23,6 +23,8 @@ std::vector<Claim> built_in_claims() {
         claim_shift(),
         claim_salvator(),
         claim_setup(),
+        claim_hand_contact(),
+        claim_palm(),
     };
 }
 

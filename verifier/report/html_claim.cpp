@@ -61,6 +61,7 @@ std::string expected_text(const Row &row) {
 
 std::string interval_text(const Row &row) {
     const auto &[low, high] = row.interval;
+    if (row.measured.replicates == 0 && row.measured.standard_error == 0) return "exact";
     if (low == high)
         return row.measured.replicates > 1 ? fmt::format("no spread in {}", row.measured.replicates) : "one render";
     const double step = resolution(row);
