@@ -9,6 +9,8 @@ std::vector<SceneRecipe> built_in_scenes() {
         solid_scene(),
         hollow_scene(),
         furnace_scene(),
+        tint_scene(),
+        dark_layer_scene(),
     };
 }
 

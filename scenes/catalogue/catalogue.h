@@ -12,5 +12,7 @@ SceneRecipe calibration_scene();
 SceneRecipe solid_scene();
 SceneRecipe hollow_scene();
 SceneRecipe furnace_scene();
+SceneRecipe tint_scene();
+SceneRecipe dark_layer_scene();
 
 } // namespace threefold

@@ -50,6 +50,10 @@ struct Experiment {
     std::function<std::vector<Expected>(const Accuracy &)> predict;
     /// `camera` is that of the replicate: film offset included.
     std::function<std::vector<Reading>(const Image &, const Camera &camera)> measure;
+    /// A number that takes two pictures: the name of an earlier experiment of this claim with the same camera, sampling
+    /// and replicates, whose picture of the same replicate `measure_pair` gets too.
+    std::string partner;
+    std::function<std::vector<Reading>(const Image &, const Image &of_partner, const Camera &camera)> measure_pair;
     /// Tolerance on the mean of a tile (absolute radiance); empty function: pictures are not compared tile by tile.
     std::function<std::vector<BudgetItem>(const Accuracy &, const Accuracy &)> tile_budget;
     /// What was measured on the picture, and what was expected, to be drawn on it in the report.
@@ -89,6 +93,7 @@ Claim claim_calibration();
 Claim claim_energy();
 Claim claim_solid_vs_hollow();
 Claim claim_rim_reads_wall();
+Claim claim_tint();
 
 /// `name=value` for whatever fmt can print, with all digits.
 Assignment assign(std::string_view name, double value);
