@@ -10,6 +10,9 @@ std::vector<SceneRecipe> built_in_scenes() {
         hollow_scene(),
         furnace_scene(),
         tint_scene(),
+        calcite_scene(),
+        rim_scene(),
+        white_spots_scene(),
         dark_layer_scene(),
     };
 }

@@ -13,6 +13,9 @@ SceneRecipe solid_scene();
 SceneRecipe hollow_scene();
 SceneRecipe furnace_scene();
 SceneRecipe tint_scene();
+SceneRecipe calcite_scene();
+SceneRecipe rim_scene();
+SceneRecipe white_spots_scene();
 SceneRecipe dark_layer_scene();
 
 } // namespace threefold

@@ -94,6 +94,9 @@ Claim claim_energy();
 Claim claim_solid_vs_hollow();
 Claim claim_rim_reads_wall();
 Claim claim_tint();
+Claim claim_calcite();
+Claim claim_dark_layer();
+Claim claim_white_spots();
 
 /// `name=value` for whatever fmt can print, with all digits.
 Assignment assign(std::string_view name, double value);

@@ -13,6 +13,7 @@ std::vector<Claim> built_in_claims() {
     return {
         claim_calibration(), // must stay first: a renderer that fails it has no vote in the others
         claim_energy(),      claim_solid_vs_hollow(), claim_rim_reads_wall(), claim_tint(),
+        claim_calcite(),     claim_dark_layer(),      claim_white_spots(),
     };
 }
 
