@@ -17,6 +17,11 @@ std::vector<SceneRecipe> built_in_scenes() {
         folds_scene(),
         salvator_scene(),
         setup_scene(),
+        tint_scene(),
+        calcite_scene(),
+        rim_scene(),
+        white_spots_scene(),
+        dark_layer_scene(),
     };
 }
 

@@ -20,5 +20,10 @@ SceneRecipe three_lines_solid_scene();
 SceneRecipe three_lines_bent_scene();
 SceneRecipe three_lines_setup_scene();
 SceneRecipe folds_scene();
+SceneRecipe tint_scene();
+SceneRecipe calcite_scene();
+SceneRecipe rim_scene();
+SceneRecipe white_spots_scene();
+SceneRecipe dark_layer_scene();
 
 } // namespace threefold

@@ -218,6 +218,7 @@ private:
         result.statement = planned.claim->statement;
         result.preset = to_string(planned.context.preset);
         bool complete = true;
+        std::map<std::string, std::vector<Testimony>> heard;
         for (const Experiment &e : planned.experiments) {
             result.experiments.push_back(e.record);
             if (e.inspect) {
@@ -230,8 +231,10 @@ private:
                 complete = complete && testimony && record_of(w).problem.empty();
                 if (testimony) testimonies.push_back(*std::move(testimony));
             }
-            judge_numbers(e, testimonies, result);
+            judge_numbers(e, testimonies, heard[e.partner], result);
             judge_pictures(e, testimonies, result);
+            if (std::ranges::any_of(planned.experiments, [&](const Experiment &o) { return o.partner == e.name; }))
+                heard[e.name] = std::move(testimonies);
         }
         result.verdict = complete ? Verdict::holds : Verdict::undecided;
         const bool calibrating = result.name == calibration_name;
@@ -278,7 +281,8 @@ private:
             }
     }
 
-    void judge_numbers(const Experiment &e, const std::vector<Testimony> &testimonies, ClaimResult &result) {
+    void judge_numbers(const Experiment &e, const std::vector<Testimony> &testimonies,
+                       const std::vector<Testimony> &of_partner, ClaimResult &result) {
         std::map<std::string, std::vector<std::pair<const Witness *, Row>>> between;
         for (const Testimony &t : testimonies) {
             std::map<std::string, std::vector<double>> readings;
@@ -286,6 +290,12 @@ private:
             if (e.measure)
                 for (std::size_t k = 0; k < replicates.size(); ++k)
                     for (const Reading &r : e.measure(t.rendered.images[k], camera_of(e, replicates[k])))
+                        readings[r.quantity].push_back(r.value);
+            const auto other = std::ranges::find(of_partner, t.witness, &Testimony::witness);
+            if (e.measure_pair && other != of_partner.end())
+                for (std::size_t k = 0; k < replicates.size(); ++k)
+                    for (const Reading &r : e.measure_pair(t.rendered.images[k], other->rendered.images[k],
+                                                           camera_of(e, replicates[k])))
                         readings[r.quantity].push_back(r.value);
             if (!e.predict) continue;
             for (const Expected &expected : e.predict(t.rendered.record.accuracy)) {

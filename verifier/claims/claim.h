@@ -53,6 +53,10 @@ struct Experiment {
     std::function<std::vector<Reading>(const Scene &)> inspect;
     /// `camera` is that of the replicate: film offset included.
     std::function<std::vector<Reading>(const Image &, const Camera &camera)> measure;
+    /// A number that takes two pictures: the name of an earlier experiment of this claim with the same camera, sampling
+    /// and replicates, whose picture of the same replicate `measure_pair` gets too.
+    std::string partner;
+    std::function<std::vector<Reading>(const Image &, const Image &of_partner, const Camera &camera)> measure_pair;
     /// Tolerance on the mean of a tile (absolute radiance); empty function: pictures are not compared tile by tile.
     std::function<std::vector<BudgetItem>(const Accuracy &, const Accuracy &)> tile_budget;
     int tile_px = 8;
@@ -103,6 +107,10 @@ Claim claim_three_lines();
 Claim claim_folds();
 Claim claim_wall_limit();
 Claim claim_shift();
+Claim claim_tint();
+Claim claim_calcite();
+Claim claim_dark_layer();
+Claim claim_white_spots();
 
 /// `name=value` for whatever fmt can print, with all digits.
 Assignment assign(std::string_view name, double value);
