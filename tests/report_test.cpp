@@ -34,6 +34,14 @@ Row row(const std::string &quantity, const std::string &witness, const std::stri
     return r;
 }
 
+/// A PNG's head is all that the page reads of it.
+std::string png_of(int width, int height) {
+    std::string png("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16);
+    for (const int side : {width, height})
+        for (const int shift : {24, 16, 8, 0}) png += static_cast<char>(side >> shift & 255);
+    return png + "the rest";
+}
+
 RunResult example() {
     RunResult r;
     r.threefold_version = "0.1.0";
@@ -105,14 +113,6 @@ RunResult hostile_result() {
     r.claims.back().preset += hostile;
     for (RenderRecord &x : r.renders) x.experiment = x.witness = x.folder = x.command = x.scene_hash = hostile;
     return r;
-}
-
-/// A PNG's head is all that the page reads of it.
-std::string png_of(int width, int height) {
-    std::string png("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16);
-    for (const int side : {width, height})
-        for (const int shift : {24, 16, 8, 0}) png += static_cast<char>(side >> shift & 255);
-    return png + "the rest";
 }
 
 /// The example as a run under both presets: a conclusion that flips, with renders beside it and marks on its picture.
