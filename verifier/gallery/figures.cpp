@@ -84,7 +84,8 @@ std::vector<Figure> study_figures() {
         {"7",
          "A solid ball of calcite, as the mean of two balls with its two indices: it distorts far more than its double "
          "image separates.",
-         {{{{"calcite", {{"glass.index", "1.486", "1.486"}}}, {"calcite", {{"glass.index", "1.658", "1.658"}}}}},
+         {{{{"calcite", {{"calcite.ray", "ordinary", "ordinary"}}},
+            {"calcite", {{"calcite.ray", "extraordinary", "extraordinary"}}}}},
           {{{"solid", {{"glass.index", "1.486", "1.486"}}}, {"solid", {{"glass.index", "1.658", "1.658"}}}}}}},
     };
 }
