@@ -101,7 +101,7 @@ struct GalleryCommand {
     std::optional<int> samples_per_pixel; ///< empty: by `quick`
     std::filesystem::path folder = "threefold-gallery";
     std::uint64_t seed = 1;
-    double time_limit_s = 3600;
+    double time_limit_s = 7200;
 };
 Exit command_gallery(const Shop &shop, const GalleryCommand &command);
 

@@ -190,7 +190,7 @@ int run(int argc, char **argv, const std::vector<SceneRecipe> &scenes, const std
         ->allow_extra_args(false);
     gallery.add_option("--scale", gallery_command.scale,
                        "Size of the pictures as a share of the study's (0.5; with --quick: 0.25)");
-    gallery.add_option("--spp", gallery_command.samples_per_pixel, "Samples per pixel (16; with --quick: 4)");
+    gallery.add_option("--spp", gallery_command.samples_per_pixel, "Samples per pixel (9; with --quick: 4)");
     gallery.add_flag("--quick", gallery_command.quick, "Small and coarse, to see what there is");
     gallery
         .add_option("-o,--output", gallery_command.folder,

@@ -22,12 +22,12 @@ struct GalleryRequest {
     std::vector<Assignment> assignments; ///< for every scene that has the parameter
     Preset preset = Preset::text;
     double scale = 0.5; ///< of the study's sizes
-    int samples_per_pixel = 16;
+    int samples_per_pixel = 9;
     double cut_weight = 1e-3; ///< for the eye: ray trees may be cut early
     std::uint64_t seed = 1;
     int threads = 0;
     TracerSettings tracer;
-    std::chrono::milliseconds time_limit{std::chrono::hours(1)};
+    std::chrono::milliseconds time_limit{std::chrono::hours(2)};
     std::filesystem::path folder; ///< pictures; `renders/` under it is the cache
     /// `share` of all that this witness has to do.
     std::function<void(const std::string &witness, double share, const std::string &now)> on_progress;
