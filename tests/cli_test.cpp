@@ -66,6 +66,8 @@ INSTANTIATE_TEST_SUITE_P(
     Cli, Refuses,
     testing::Values(
         BadInput{"render holow", 64, "did you mean 'hollow'"}, BadInput{"show nothing-like-it", 64, "calibration"},
+        BadInput{"gallery 3C", 64, "unknown figure '3C'"}, BadInput{"gallery 3B --scale 0", 65, "--scale must lie in"},
+        BadInput{"gallery 3B --with tracer --set orb.wal_mm=1", 64, "did you mean 'orb.wall_mm'"},
         BadInput{"check solid-vs-holow", 64, "did you mean 'solid-vs-hollow'"},
         BadInput{"render hollow --set orb.wal_mm=1", 64, "did you mean 'orb.wall_mm'"},
         BadInput{"check --with tracer --set orb.wal_mm=1 rim-reads-wall -o .", 64, "did you mean 'orb.wall_mm'"},

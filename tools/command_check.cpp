@@ -25,6 +25,17 @@ void write_result(const std::string &where, const std::string &text) {
         write_file_atomically(where, text + "\n");
 }
 
+std::vector<Witness> asked_witnesses(const std::vector<std::string> &names) {
+    std::vector<Witness> found = find_witnesses(names.empty() ? witness_names() : names);
+    for (const Witness &w : found) {
+        if (names.empty() || w.present()) continue;
+        if (!w.problem.empty()) throw Error(Exit::input_output, w.problem);
+        throw Error(Exit::renderer_missing, fmt::format("{} was asked for and is not installed", w.title),
+                    fmt::format("apt-get install {}", w.package));
+    }
+    return found;
+}
+
 namespace {
 
 std::map<std::string, Fault> parse_injections(const std::vector<std::string> &injections) {
@@ -99,13 +110,7 @@ Exit command_check(const Shop &shop, const CheckCommand &command) {
         print_plan(request);
         return Exit::holds;
     }
-    request.witnesses = find_witnesses(command.with.empty() ? witness_names() : command.with);
-    for (const Witness &w : request.witnesses) {
-        if (command.with.empty() || w.present()) continue;
-        if (!w.problem.empty()) throw Error(Exit::input_output, w.problem);
-        throw Error(Exit::renderer_missing, fmt::format("{} was asked for and is not installed", w.title),
-                    fmt::format("apt-get install {}", w.package));
-    }
+    request.witnesses = asked_witnesses(command.with);
 
     std::vector<std::string> names;
     for (const Witness &w : request.witnesses)
