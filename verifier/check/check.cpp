@@ -77,8 +77,7 @@ void require_known(const std::vector<Assignment> &assignments, const std::vector
 
 class Run {
 public:
-    explicit Run(const CheckRequest &request)
-        : request_(request) {
+    explicit Run(const CheckRequest &request) : request_(request) {
         for (const Witness &w : request.witnesses) {
             WitnessRecord record;
             record.name = w.name;
@@ -155,14 +154,14 @@ private:
         tell(0);
         RenderJob job;
         job.scene = e.scene;
-        if (const auto fault = request_.injected.find(w.name); fault != request_.injected.end())
-            job.scene = with_fault(job.scene, fault->second);
         job.sampling = e.sampling;
         job.samples_per_pixel = e.samples_per_pixel;
         job.replicates = replicates_of(e, request_.seed);
         job.surface_tolerance_mm = e.surface_tolerance_mm;
         job.cut_weight = e.cut_weight;
         job.threads = request_.threads;
+        if (const auto fault = request_.injected.find(w.name); fault != request_.injected.end())
+            job = with_fault(std::move(job), fault->second);
         try {
             Testimony t{&w, render(w, job, {request_.folder, e.name, request_.tracer, request_.time_limit, tell})};
             t.rendered.record.experiment = e.name;

@@ -28,7 +28,7 @@ struct CheckRequest {
     TracerSettings tracer;
     std::chrono::milliseconds time_limit{std::chrono::minutes(10)};
     std::filesystem::path folder;
-    std::map<std::string, Fault> injected; ///< by witness name
+    std::map<std::string, InjectedFault> injected; ///< by witness name
     /// `share` of all that this witness has to do.
     std::function<void(const std::string &witness, double share, const std::string &now)> on_progress;
 };

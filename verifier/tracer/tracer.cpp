@@ -35,12 +35,18 @@ constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 constexpr int greatest_depth = 64;
 
 template <class Real>
-std::vector<Orb<Real>> orbs_of(const Scene &scene) {
+std::vector<Orb<Real>> orbs_of(const Scene &scene, const Slip &slip) {
     std::vector<Orb<Real>> orbs;
-    const auto add = [&orbs](Vec3 centre, double outer, double inner, const Glass &glass) {
+    const auto add = [&](Vec3 centre, double outer, double inner, const Glass &glass) {
         orbs.push_back({Vector<Real>(centre), static_cast<Real>(outer), static_cast<Real>(inner),
                         static_cast<Real>(glass.index), static_cast<Real>(glass.interface_transmittance),
                         glass.coating});
+        Orb<Real> &orb = orbs.back();
+        orb.inner_transmittance = static_cast<Real>(
+            slip.inner_tint_forgotten > 0 ? std::pow(glass.interface_transmittance, 1 - slip.inner_tint_forgotten)
+                                          : glass.interface_transmittance);
+        if (slip.inner_normal_flipped) orb.hollow_index = orb.index * orb.index; // as if it entered glass once more
+        if (slip.most_interfaces) orb.most_interfaces = *slip.most_interfaces;
     };
     for (const Object &object : scene.objects)
         std::visit(overloaded{
@@ -57,8 +63,8 @@ std::vector<Orb<Real>> orbs_of(const Scene &scene) {
 template <class Real>
 class World {
 public:
-    World(const Scene &scene, const TreeEnd<Real> &end)
-        : scene_(scene), end_(end), orbs_(orbs_of<Real>(scene)), surfaces_(scene, std::is_same_v<Real, double>),
+    World(const Scene &scene, const Slip &slip, const TreeEnd<Real> &end)
+        : scene_(scene), end_(end), orbs_(orbs_of<Real>(scene, slip)), surfaces_(scene, std::is_same_v<Real, double>),
           lights_(lights_on_diffuse(scene)) {}
 
     /// What one thread and one sample carry along.
@@ -77,7 +83,8 @@ public:
         const std::size_t orb = nearest_orb(ray, left, entry);
         const Ray exact{Vec3(ray.origin), Vec3(ray.direction)};
         const auto hit = surfaces_.intersect(exact);
-        if (hit && (orb == none || hit->distance <= static_cast<double>(entry.distance))) return leaving(*hit, path.lights);
+        if (hit && (orb == none || hit->distance <= static_cast<double>(entry.distance)))
+            return leaving(*hit, path.lights);
         if (orb == none) return scene_.environment ? scene_.environment->radiance : Rgb(0);
         if (depth >= greatest_depth) {
             path.dropped += weight;
@@ -154,7 +161,7 @@ double process_cpu_seconds() {
 template <class Real>
 void render(const RenderJob &job, const TreeEnd<Real> &end, const std::function<void(double)> &on_progress,
             TracerOutcome &outcome) {
-    const World<Real> world(job.scene, end);
+    const World<Real> world(job.scene, job.slip, end);
     const Camera &camera = job.scene.camera;
     const int width = camera.image_width_px(), height = camera.image_height_px();
     const int samples = job.sampling == Sampling::box ? job.samples_per_pixel : 1;
@@ -174,7 +181,8 @@ void render(const RenderJob &job, const TreeEnd<Real> &end, const std::function<
             const auto turn = static_cast<std::size_t>(sampler.next() * 65536);
             Rgb sum(0);
             for (int k = 0; k < samples; ++k) {
-                path.lights = world.lights().share(static_cast<std::size_t>(k), static_cast<std::size_t>(samples), turn);
+                path.lights =
+                    world.lights().share(static_cast<std::size_t>(k), static_cast<std::size_t>(samples), turn);
                 const Vec2 at =
                     job.sampling == Sampling::pixel_centres
                         ? pixel_sample(camera, column, row)
@@ -214,7 +222,8 @@ TracerOutcome trace(const RenderJob &job, const TracerSettings &settings,
     const Needs n = needs(job.scene);
     if (n.caustics) throw Error(Exit::bad_data, "the tracer does not follow caustics onto diffuse surfaces");
     if (n.environment_on_diffuse)
-        throw Error(Exit::bad_data, "the tracer lights diffuse surfaces by parallel lights only: give the environment a dome of them");
+        throw Error(Exit::bad_data,
+                    "the tracer lights diffuse surfaces by parallel lights only: give the environment a dome of them");
     const auto start = std::chrono::steady_clock::now();
     const double cpu_start = process_cpu_seconds();
     TracerOutcome outcome;
