@@ -68,7 +68,7 @@ Exit command_render(const Shop &shop, const RenderRequest &request);
 struct CheckCommand {
     std::vector<std::string> claims;
     std::vector<std::string> with; ///< empty: all, and a missing one is no error
-    std::string preset; ///< "text", "published" or "both"; empty: both, or text in a quick run
+    std::string preset;            ///< "text", "published" or "both"; empty: both, or text in a quick run
     std::vector<std::string> assignments;
     bool quick = false, dry_run = false;
     std::filesystem::path folder = "threefold-report";
@@ -79,6 +79,19 @@ struct CheckCommand {
     std::string precision = "double";
 };
 Exit command_check(const Shop &shop, const CheckCommand &request);
+
+struct PowerCommand {
+    std::vector<std::string> with;    ///< the tracer always; empty: all that are installed, or in a quick run it alone
+    std::vector<std::string> without; ///< claims left out
+    std::vector<std::string> faults;  ///< empty: all
+    bool quick = false;
+    int runs = 40;
+    std::uint64_t seed = 1;
+    double time_limit_s = 600;
+    std::filesystem::path folder = "threefold-power";
+    std::optional<std::string> json, markdown;
+};
+Exit command_power(const Shop &shop, const PowerCommand &command);
 
 struct CompareRequest {
     std::vector<std::filesystem::path> pictures;

@@ -55,6 +55,32 @@ void add_scene_options(CLI::App &command, SceneRequest &scene) {
     command.add_option("--size", scene.size, "Picture size in pixels, WIDTHxHEIGHT");
 }
 
+void add_power_options(CLI::App &command, PowerCommand &power) {
+    command.add_flag("--quick", power.quick, "Our tracer alone, and a coarser search for the smallest faults");
+    command
+        .add_option("--with", power.with,
+                    "Honest renderers beside the tracer, which gets the faults (default: all that are installed)")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    command.add_option("--without", power.without, "Claims to leave out, comma-separated")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    command.add_option("--faults", power.faults, "Only these, comma-separated (see: threefold list)")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    command.add_option("--runs", power.runs, "Runs without a fault, to count false alarms")
+        ->capture_default_str()
+        ->check(CLI::Range(0, 100000));
+    command.add_option("--seed", power.seed, "Seed")->capture_default_str();
+    command.add_option("-o,--output", power.folder, "Folder of the study: power.json, power.md, honest pictures")
+        ->capture_default_str();
+    command.add_option("--json", power.json, "Also write the result as JSON here (-: stdout)");
+    command.add_option("--markdown", power.markdown, "Also write the table as a page of Markdown here (-: stdout)");
+    command.add_option("--timeout", power.time_limit_s, "Seconds until a renderer is given up")
+        ->capture_default_str()
+        ->check(CLI::PositiveNumber);
+}
+
 } // namespace
 
 int run(int argc, char **argv, const std::vector<SceneRecipe> &scenes, const std::vector<Claim> &claims) {
@@ -69,6 +95,7 @@ int run(int argc, char **argv, const std::vector<SceneRecipe> &scenes, const std
         "  threefold render hollow                  a first picture (hollow.exr, hollow.png)\n"
         "  threefold check --quick                  all claims in all renderers, with a report\n"
         "  threefold check solid-vs-hollow --set glass.index=1.1 -o water\n"
+        "  threefold power --quick                  which known faults the check catches, and how small\n"
         "  threefold optics --impact-mm 60          the closed forms for one ray\n\n"
         "Exit codes: 0 holds, 1 fails, 2 undecided, 64 usage, 65 bad input, 69 renderer missing, 70 a defect of ours,\n"
         "74 input or output failed, 124 a renderer ran out of time, 130 interrupted.");
@@ -145,10 +172,9 @@ int run(int argc, char **argv, const std::vector<SceneRecipe> &scenes, const std
                     "Renderers, comma-separated: tracer, povray, cycles (default: all that are installed)")
         ->delimiter(',')
         ->allow_extra_args(false);
-    check
-        .add_option("--preset", check_command.preset,
-                    "Values of the study's wording (text), of its scene files (published), or both (the default; with "
-                    "--quick: text)");
+    check.add_option("--preset", check_command.preset,
+                     "Values of the study's wording (text), of its scene files (published), or both (the default; with "
+                     "--quick: text)");
     check
         .add_option("--set", check_command.assignments,
                     "Change a parameter of every scene that has it: name=value; repeatable")
@@ -162,7 +188,8 @@ int run(int argc, char **argv, const std::vector<SceneRecipe> &scenes, const std
     check
         .add_option(
             "--inject", check_command.injections,
-            "Give one renderer a faulty scene, RENDERER:FAULT, to see that a claim can fail (see: threefold list)")
+            "Put a fault into one renderer, RENDERER:FAULT or RENDERER:FAULT@SIZE, to see that a claim can fail "
+            "(see: threefold list)")
         ->allow_extra_args(false);
     check.add_option("--seed", check_command.seed, "Seed")->capture_default_str();
     check.add_option("--timeout", check_command.time_limit_s, "Seconds until a renderer is given up")
@@ -171,6 +198,13 @@ int run(int argc, char **argv, const std::vector<SceneRecipe> &scenes, const std
     check.add_option("--precision", check_command.precision, "Tracer: float or double")->capture_default_str();
     check.add_flag("--dry-run", check_command.dry_run, "Say what would be rendered");
     add_common(check);
+
+    PowerCommand power_command;
+    add_power_options(
+        *app.add_subcommand("power", "Known faults: which our check catches, how small, and which others' tests would"),
+        power_command);
+    CLI::App &power = *app.get_subcommand("power");
+    add_common(power);
 
     CompareRequest compare_request;
     CLI::App &compare = *app.add_subcommand("compare", "Two or three pictures, tile by tile");
@@ -219,6 +253,7 @@ int run(int argc, char **argv, const std::vector<SceneRecipe> &scenes, const std
         if (export_) exit = command_export(shop, export_request);
         if (render) exit = command_render(shop, render_request);
         if (check) exit = command_check(shop, check_command);
+        if (power) exit = command_power(shop, power_command);
         if (compare) exit = command_compare(shop, compare_request);
         if (optics) exit = static_cast<Exit>(run_optics(optics_query, std::cout));
         std::cout.flush();

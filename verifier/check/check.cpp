@@ -144,6 +144,11 @@ private:
         return *std::ranges::find(result_.witnesses, w.name, &WitnessRecord::name);
     }
 
+    std::uint64_t seed_of(const Witness &w) const {
+        const auto own = request_.seeds.find(w.name);
+        return own != request_.seeds.end() ? own->second : request_.seed;
+    }
+
     std::optional<Testimony> ask(const Witness &w, const Experiment &e, Preset preset) {
         WitnessRecord &record = record_of(w);
         if (!record.present || broken_.contains(w.name)) return std::nullopt;
@@ -156,7 +161,7 @@ private:
         job.scene = e.scene;
         job.sampling = e.sampling;
         job.samples_per_pixel = e.samples_per_pixel;
-        job.replicates = replicates_of(e, request_.seed);
+        job.replicates = replicates_of(e, seed_of(w));
         job.surface_tolerance_mm = e.surface_tolerance_mm;
         job.cut_weight = e.cut_weight;
         job.threads = request_.threads;
@@ -258,7 +263,7 @@ private:
         std::map<std::string, std::vector<std::pair<const Witness *, Row>>> between;
         for (const Testimony &t : testimonies) {
             std::map<std::string, std::vector<double>> readings;
-            const std::vector<Replicate> replicates = replicates_of(e, request_.seed);
+            const std::vector<Replicate> replicates = replicates_of(e, seed_of(*t.witness));
             if (e.measure)
                 for (std::size_t k = 0; k < replicates.size(); ++k)
                     for (const Reading &r : e.measure(t.rendered.images[k], camera_of(e, replicates[k])))

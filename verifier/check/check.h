@@ -24,6 +24,7 @@ struct CheckRequest {
     std::vector<Assignment> assignments;
     bool quick = false;
     std::uint64_t seed = 1;
+    std::map<std::string, std::uint64_t> seeds; ///< by witness name, in place of `seed`
     int threads = 0;
     TracerSettings tracer;
     std::chrono::milliseconds time_limit{std::chrono::minutes(10)};
