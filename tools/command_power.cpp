@@ -38,7 +38,7 @@ Exit command_power(const Shop &shop, const PowerCommand &command) {
             request.faults.push_back(entry.fault);
     for (const std::string &name : command.faults) parse_fault(name);
     request.quick = command.quick;
-    request.runs = command.runs;
+    request.runs = command.runs.value_or(command.quick ? 10 : 40);
     request.seed = command.seed;
     request.threads = shop.threads;
     request.time_limit = to_time_limit(command.time_limit_s);

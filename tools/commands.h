@@ -85,7 +85,7 @@ struct PowerCommand {
     std::vector<std::string> without; ///< claims left out
     std::vector<std::string> faults;  ///< empty: all
     bool quick = false;
-    int runs = 40;
+    std::optional<int> runs; ///< without a fault; empty: 40, or 10 in a quick run
     std::uint64_t seed = 1;
     double time_limit_s = 600;
     std::filesystem::path folder = "threefold-power";

@@ -68,8 +68,7 @@ void add_power_options(CLI::App &command, PowerCommand &power) {
     command.add_option("--faults", power.faults, "Only these, comma-separated (see: threefold list)")
         ->delimiter(',')
         ->allow_extra_args(false);
-    command.add_option("--runs", power.runs, "Runs without a fault, to count false alarms")
-        ->capture_default_str()
+    command.add_option("--runs", power.runs, "Runs without a fault, to count false alarms (default: 40; --quick: 10)")
         ->check(CLI::Range(0, 100000));
     command.add_option("--seed", power.seed, "Seed")->capture_default_str();
     command.add_option("-o,--output", power.folder, "Folder of the study: power.json, power.md, honest pictures")

@@ -40,7 +40,9 @@ std::string size_text(const FaultEntry &entry, double size) {
 std::string smallest_text(const PowerRow &row) {
     if (!row.smallest) return "";
     const FaultEntry &entry = entry_of(row.fault.fault);
-    return fmt::format("{} ({})", size_text(entry, row.smallest->caught), row.smallest->evaluations);
+    // Where the search gave up, a smaller one may be caught as well.
+    return fmt::format("{}{} ({})", row.smallest->missed ? "" : "at most ", size_text(entry, row.smallest->caught),
+                       row.smallest->evaluations);
 }
 
 bool any(const PowerRow &row, ImageJudgement PictureJudgement::*judge) {
@@ -172,7 +174,9 @@ std::string to_markdown(const PowerResult &result) {
         "\n*Smallest that ours catches*: the size is brought down until no claim fails any more, to within a factor of "
         "{:g}; once for faults that differ in their size alone. A percentage is of the index, of the wall, of one "
         "light's irradiance, of the inner surface's loss, or of the radiance; for `bounces-4` it is the greatest limit "
-        "on the glass surfaces of a path that is still caught.\n\n## Runs without a fault\n\n",
+        "on the glass surfaces of a path that is still caught. The faulty renderer computes in double precision, and "
+        "so \"\n        \"its tolerances are narrow: of a renderer in single precision the smallest fault is "
+        "larger.\n\n## Runs without a fault\n\n",
         result.resolution);
     out += markdown(alarm_table(result.false_alarms));
     out += fmt::format(
