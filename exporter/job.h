@@ -50,6 +50,7 @@ struct Accuracy {
     double filter_px = 0;          ///< standard deviation of the sample position under Sampling::pixel_centres
     double cut_weight = 0;         ///< branches below this weight are dropped; 0: none is dropped
     bool cuts_whole_trees = false; ///< cut_weight bounds all that is dropped of a ray's tree, not each branch
+    double lost_paths = 0;         ///< greatest share of paths through glass that a renderer loses altogether
     bool random_branches = false;  ///< follows one branch where light splits, or one light, at random: much more noise
 };
 

@@ -39,8 +39,12 @@ struct Sphere {
 inline std::optional<Sphere> outer_sphere(const Shape &shape) {
     using Result = std::optional<Sphere>;
     return std::visit(overloaded{
-                          [](const GlassBall &b) { return Result({b.centre_mm, b.radius_mm}); },
-                          [](const GlassShell &s) { return Result({s.centre_mm, s.outer_radius_mm}); },
+                          [](const GlassBall &b) {
+                              return Result({b.centre_mm, b.radius_mm});
+                          },
+                          [](const GlassShell &s) {
+                              return Result({s.centre_mm, s.outer_radius_mm});
+                          },
                           [](const Quad &) { return Result(); },
                           [](const Mesh &) { return Result(); },
                       },

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scenes/light.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -25,6 +26,25 @@ std::vector<Directional> lights_on_diffuse(const Scene &scene) {
     if (scene.environment)
         for (const Directional &light : dome(*scene.environment)) lights.push_back(light);
     return lights;
+}
+
+std::vector<std::vector<Directional>> shared_lights(const std::vector<Directional> &lights, std::size_t shares) {
+    constexpr double strong = 0.02; // of all light
+    const auto strength = [](const Directional &light) {
+        return std::max({light.irradiance.r, light.irradiance.g, light.irradiance.b});
+    };
+    double sum = 0;
+    for (const Directional &light : lights) sum += strength(light);
+    std::vector<std::vector<Directional>> parts(shares);
+    std::size_t next = 0;
+    for (const Directional &light : lights) {
+        if (!(strength(light) > 0)) continue;
+        if (strength(light) > strong * sum)
+            for (auto &part : parts) part.push_back(light);
+        else
+            parts[next++ % shares].push_back({light.travel, light.irradiance * static_cast<double>(shares)});
+    }
+    return parts;
 }
 
 } // namespace threefold

@@ -175,7 +175,9 @@ TEST(CyclesScript, refuses_what_it_cannot_say_exactly) {
 
     job = job_of({{"orb", GlassBall{}}, {"wall", card(Diffuse{})}});
     job.scene.environment = Environment{Rgb(1)};
-    EXPECT_THAT(refusal(job), HasSubstr("environment that lights a diffuse surface is not yet supported"));
+    EXPECT_THAT(refusal(job), HasSubstr("environment's light on a diffuse surface would be an integral"));
+    job.scene.environment->dome_directions = 48;
+    EXPECT_NO_THROW(compile_cycles(job));
     job.scene.environment.reset();
     job.scene.lights = {Directional{}};
     job.scene.glass_shadow.rule = GlassShadow::Rule::caustic;

@@ -210,9 +210,26 @@ TEST(PovRayRefusals, name_light_that_would_be_missing) {
     EXPECT_NO_THROW(compile_povray(job_of(scene)));
     scene.environment = Environment{Rgb(0.02)};
     expect_refused(job_of(scene), "environment's light on the diffuse surface \"wall\"");
-    scene.environment.reset();
-    scene.objects.push_back({"lamp", painted(Emissive{})});
-    expect_refused(job_of(scene), "the emitter \"lamp\" on the diffuse surface \"wall\"");
+    scene.environment->dome_directions = 48;
+    EXPECT_NO_THROW(compile_povray(job_of(scene)));
+}
+
+TEST(PovRay, shares_many_lights_among_pictures_whose_mean_has_all) {
+    Scene scene = scene_of({{"wall", painted(Diffuse{})}});
+    scene.environment = Environment{Rgb(0.02), 400};
+    scene.camera.width_px = scene.camera.height_px = 512;
+    RenderJob job = job_of(scene);
+    job.sampling = Sampling::box;
+    job.samples_per_pixel = 16;
+    const Exported exported = compile_povray(job);
+    EXPECT_GT(exported.pictures_per_replicate, 2);
+    EXPECT_EQ(exported.pictures_per_replicate % 2, 0) << "shifts come in mirrored pairs";
+    EXPECT_GE(exported.pictures_per_replicate * exported.supersampling * exported.supersampling, 16);
+    std::size_t lights = 0;
+    const std::string &text = exported.files.front().bytes;
+    for (std::size_t at = text.find("light_source"); at != std::string::npos; at = text.find("light_source", at + 1))
+        ++lights;
+    EXPECT_EQ(lights, 400u) << "each light is in one picture";
 }
 
 TEST(PovRayRefusals, name_a_uv_that_would_be_repeated) {

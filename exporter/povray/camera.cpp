@@ -4,7 +4,7 @@
 // shift.
 #include "exporter/povray/writer.h"
 
-#include <array>
+#include <cmath>
 #include <random>
 
 #include <fmt/format.h>
@@ -17,18 +17,25 @@ namespace {
 /// The shifts of a grid of `supersampling` samples a pixel that put sample i at (i + u) / supersampling, u uniform in
 /// [0, 1), and then at (i + 1 - u) / supersampling: whatever the picture, the mean over u is the mean over the pixel.
 /// One shift alone moves the whole picture by up to half a grid step, an error of the first order wherever it has a
-/// gradient; in the mirrored pair that cancels.
-std::array<Vec2, 2> grid_shifts_px(std::uint64_t seed, int supersampling) {
+/// gradient; in the mirrored pair that cancels. Further pairs follow the first along an even sequence (the R2 sequence,
+/// Roberts 2018).
+std::vector<Vec2> grid_shifts_px(std::uint64_t seed, const Grid &grid) {
     std::mt19937_64 random(seed);
     const auto uniform = [&random] { return static_cast<double>(random() >> 11) * 0x1p-53; };
     const double u = uniform(), v = uniform();
-    const Vec2 shift = (Vec2(u, v) - 0.5) / static_cast<double>(supersampling);
-    return {shift, -shift};
+    std::vector<Vec2> shifts;
+    for (int pair = 0; pair < grid.pictures / 2; ++pair) {
+        const Vec2 at(std::fmod(u + pair * 0.7548776662466927, 1.0), std::fmod(v + pair * 0.5698402909980532, 1.0));
+        const Vec2 shift = (at - 0.5) / static_cast<double>(grid.supersampling);
+        shifts.push_back(shift);
+        shifts.push_back(-shift);
+    }
+    return shifts;
 }
 
 } // namespace
 
-void write_camera(Writer &writer, int supersampling) {
+void write_camera(Writer &writer) {
     const Camera &camera = writer.job.scene.camera;
     const CameraFrame frame = camera_frame(camera);
     const double pixel = 2 * film_half_width(camera) / camera.width_px;
@@ -53,7 +60,7 @@ void write_camera(Writer &writer, int supersampling) {
             add(offset_px);
             break;
         case Sampling::box:
-            for (const Vec2 shift_px : grid_shifts_px(replicate.seed, supersampling)) add(offset_px + shift_px);
+            for (const Vec2 shift_px : grid_shifts_px(replicate.seed, writer.grid)) add(offset_px + shift_px);
             break;
         }
     }

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "exporter/povray/writer.h"
+#include "scenes/light.h"
 #include "scenes/validate.h"
 
 namespace threefold {
@@ -19,25 +20,39 @@ using povray::number;
 constexpr double most_pixels = 1 << 28;
 constexpr double white = 65535, brightest = 65534;
 
-int supersampling(const RenderJob &job) {
-    switch (job.sampling) {
-    case Sampling::pixel_centres:
-        return 1;
-    case Sampling::box:
-        return std::max(1, static_cast<int>(std::ceil(std::sqrt(job.samples_per_pixel / 2.0))));
-    }
-    return 1;
+/// How many pictures are quickest where each takes its share of the lights: asking for lights takes the time of all
+/// samples and lights once, divided by their number; each picture takes the time to start it and to parse the scene.
+/// The constants are rough figures of two cores: they choose a way to the same mean.
+double quickest_pictures(const RenderJob &job) {
+    constexpr double start_s = 0.2, parse_s_per_triangle = 1e-5, light_s = 2e-7;
+    double picture_s = start_s;
+    for (const Object &object : job.scene.objects)
+        if (const Mesh *mesh = std::get_if<Mesh>(&object.shape))
+            picture_s += parse_s_per_triangle * static_cast<double>(mesh->triangles.size());
+    const Camera &camera = job.scene.camera;
+    const double samples =
+        static_cast<double>(camera.image_width_px()) * camera.image_height_px() * job.samples_per_pixel;
+    return std::sqrt(samples * static_cast<double>(lights_on_diffuse(job.scene).size()) * light_s / picture_s);
 }
 
-/// A mean over the pixel takes two pictures: see grid_shifts_px.
-int pictures_per_replicate(const RenderJob &job) {
+/// A mean over the pixel takes pictures in mirrored pairs: see grid_shifts_px.
+povray::Grid grid_of(const RenderJob &job, const Needs &needs) {
     switch (job.sampling) {
     case Sampling::pixel_centres:
-        return 1;
-    case Sampling::box:
-        return 2;
+        return {1, 1};
+    case Sampling::box: {
+        constexpr double most_pictures = 32;
+        const int samples = std::max(job.samples_per_pixel, 1);
+        int pictures = 2;
+        if (needs.many_lights)
+            pictures =
+                2 *
+                std::max(1, static_cast<int>(
+                                std::min({quickest_pictures(job), most_pictures, static_cast<double>(samples)}) / 2));
+        return {std::max(1, static_cast<int>(std::ceil(std::sqrt(static_cast<double>(samples) / pictures)))), pictures};
     }
-    return 1;
+    }
+    return {};
 }
 
 /// POV-Ray puts the frame's number before the extension, with as many digits as the last frame has; not so for one
@@ -113,8 +128,11 @@ std::string head(const RenderJob &job, const povray::Space &space, double radian
 
 Exported compile_povray(const RenderJob &job) {
     povray::refuse_what_cannot_be_said(job);
-    const double greatest = needs(job.scene).greatest_radiance;
+    const Needs needed = needs(job.scene);
+    const povray::Grid grid = grid_of(job, needed);
+    const double greatest = needed.greatest_radiance * povray::greatest_share(job.scene, grid);
     povray::Writer writer{.job = job,
+                          .grid = grid,
                           .space = povray::choose_space(job.scene),
                           .radiance_scale = greatest > 0 ? brightest / white / greatest : 1,
                           .mesh_rounding_mm = 0,
@@ -123,7 +141,7 @@ Exported compile_povray(const RenderJob &job) {
                           .texture_of_file = {}};
 
     Exported exported;
-    exported.supersampling = supersampling(job);
+    exported.supersampling = grid.supersampling;
     const double pixels = static_cast<double>(job.scene.camera.image_width_px()) * job.scene.camera.image_height_px() *
                           exported.supersampling * exported.supersampling;
     if (pixels > most_pixels)
@@ -132,11 +150,11 @@ Exported compile_povray(const RenderJob &job) {
                         job.samples_per_pixel, pixels, most_pixels));
     exported.radiance_scale = writer.radiance_scale;
     writer.text = head(job, writer.space, writer.radiance_scale);
-    write_camera(writer, exported.supersampling);
+    write_camera(writer);
     write_lights(writer);
     for (const Object &object : job.scene.objects) write_object(writer, object);
 
-    exported.pictures_per_replicate = pictures_per_replicate(job);
+    exported.pictures_per_replicate = grid.pictures;
     const std::size_t pictures = job.replicates.size() * static_cast<std::size_t>(exported.pictures_per_replicate);
     exported.arguments = arguments(job, exported.supersampling, pictures);
     exported.outputs = output_names(pictures);

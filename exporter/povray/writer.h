@@ -36,9 +36,16 @@ struct Space {
 /// Throws when no unit keeps the farthest point and the smallest gap of glass both within what POV-Ray can tell apart.
 Space choose_space(const Scene &scene);
 
+/// How a pixel is sampled: `pictures` of `supersampling` x `supersampling` samples a pixel, each shifted by its own.
+struct Grid {
+    int supersampling = 1;
+    int pictures = 1;
+};
+
 /// A POV-Ray scene while it is being written.
 struct Writer {
     const RenderJob &job;
+    Grid grid;
     Space space;
     double radiance_scale = 1;
     double mesh_rounding_mm = 0; ///< meshes are in single precision there
@@ -49,7 +56,7 @@ struct Writer {
 
 // The parts of a scene, in the order in which they are written.
 void refuse_what_cannot_be_said(const RenderJob &job);
-void write_camera(Writer &writer, int supersampling);
+void write_camera(Writer &writer);
 void write_lights(Writer &writer);
 void write_object(Writer &writer, const Object &object);
 
@@ -60,7 +67,10 @@ void write_mesh(Writer &writer, const Mesh &mesh);
 
 /// "texture { ... }" over the unit square of the object's coordinates, or of a mesh's uv.
 std::string surface_texture(Writer &writer, const Surface &surface, bool by_uv);
+/// How much brighter than the whole scene one picture may be, in which a share of the lights stands for all; at
+/// least 1.
+double greatest_share(const Scene &scene, const Grid &grid);
 bool needs_uv(const Surface &surface);
-double glass_radius_mm(const Shape &shape);    ///< outer; 0 for the others
+double glass_radius_mm(const Shape &shape); ///< outer; 0 for the others
 
 } // namespace threefold::povray

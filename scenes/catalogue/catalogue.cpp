@@ -9,6 +9,12 @@ std::vector<SceneRecipe> built_in_scenes() {
         solid_scene(),
         hollow_scene(),
         furnace_scene(),
+        soft_light_scene(),
+        three_lines_hollow_scene(),
+        three_lines_solid_scene(),
+        three_lines_bent_scene(),
+        three_lines_setup_scene(),
+        folds_scene(),
     };
 }
 

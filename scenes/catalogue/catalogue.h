@@ -12,5 +12,11 @@ SceneRecipe calibration_scene();
 SceneRecipe solid_scene();
 SceneRecipe hollow_scene();
 SceneRecipe furnace_scene();
+SceneRecipe soft_light_scene();
+SceneRecipe three_lines_hollow_scene();
+SceneRecipe three_lines_solid_scene();
+SceneRecipe three_lines_bent_scene();
+SceneRecipe three_lines_setup_scene();
+SceneRecipe folds_scene();
 
 } // namespace threefold

@@ -89,6 +89,11 @@ Claim claim_calibration();
 Claim claim_energy();
 Claim claim_solid_vs_hollow();
 Claim claim_rim_reads_wall();
+Claim claim_soft_light();
+Claim claim_three_lines();
+Claim claim_folds();
+Claim claim_wall_limit();
+Claim claim_shift();
 
 /// `name=value` for whatever fmt can print, with all digits.
 Assignment assign(std::string_view name, double value);

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "verifier/claims/claim.h"
+#include "verifier/claims/flip.h"
 #include "verifier/claims/prediction.h"
 #include "verifier/measure/optical_map.h"
 
@@ -15,9 +16,11 @@ namespace threefold {
 
 namespace {
 
-constexpr double clear_share = 0.98;      ///< of the (inner) radius: beyond it a shell bends rays without bound
-constexpr double axis_share = 0.3;        ///< of the clear radius: the central slope is fitted within it
-constexpr double landing_goal = 1e-4;     ///< of the radius: what tessellation may cost a landing point
+constexpr double clear_share = 0.98;  ///< of the (inner) radius: beyond it a shell bends rays without bound
+constexpr double axis_share = 0.3;    ///< of the clear radius: the central slope is fitted within it
+constexpr double landing_goal = 1e-4; ///< of the radius: what tessellation may cost a landing point
+constexpr double flip_goal = 1e-3;    ///< the same for the renders beside a flip point: they need only a sign
+constexpr double least_slope = 0.05;
 constexpr double finest_surface = 2.5e-6; ///< of the radius: finer spheres than this are not asked for
 
 /// Distances from the axis point of the card along the direction in which a ray would land without glass.
@@ -68,12 +71,61 @@ std::vector<double> landing_errors_mm(const Scene &scene, const OrbInScene &orb,
     return errors;
 }
 
-Experiment map_experiment(const ClaimContext &context, const std::string &kind) {
+/// From where a ray would land without glass to where it lands, as the eye sees both: a few arrows over the orb.
+std::vector<Mark> displacements(const Scene &scene, const OrbInScene &orb, const Image &image, const Camera &camera) {
+    constexpr int arrows = 5; // a row of them
+    const Quad &card = card_of(scene);
+    const CameraFrame frame = camera_frame(camera);
+    const double pixel = 2 * film_half_width(camera) / camera.width_px;
+    const auto seen = [&](Vec3 point) {
+        const Vec3 d = point - camera.eye_mm;
+        const double depth = glm::dot(d, frame.forward);
+        return Vec2(camera.width_px / 2.0 + glm::dot(d, frame.right) / depth / pixel,
+                    camera.height_px / 2.0 - glm::dot(d, frame.up) / depth / pixel);
+    };
+    std::vector<Mark> marks;
+    for (int i = 0; i < arrows; ++i)
+        for (int j = 0; j < arrows; ++j) {
+            const int column = (2 * i + 1) * image.width / (2 * arrows),
+                      row = (2 * j + 1) * image.height / (2 * arrows);
+            const Ray ray = camera_ray(camera, pixel_sample(camera, column, row));
+            if (!(impact_parameter(ray, orb.centre_mm) < 0.9 * orb.clear_radius_mm())) continue;
+            const Vec2 from = pixel_sample(camera, column, row);
+            if (const auto landed = landing_point(card, image.at(column, row)))
+                marks.push_back({Mark::Kind::arrow, from, seen(*landed), 0, Mark::Meaning::measured, ""});
+            if (const auto predicted = predicted_landing(orb, card, ray))
+                marks.push_back({Mark::Kind::cross, seen(*predicted), {}, 0, Mark::Meaning::expected, ""});
+        }
+    for (Mark &m : marks)
+        if (m.label.empty()) {
+            m.label = m.kind == Mark::Kind::arrow ? "from where one looks to the point of the card seen there"
+                                                  : "by exact optics";
+            if (m.kind == Mark::Kind::cross) break;
+        }
+    return marks;
+}
+
+/// What the conclusion says of the slope on the axis, in the words of the study.
+struct SlopeConclusion {
+    std::string quantity;
+    Relation relation;
+    double threshold;
+};
+
+struct MapPlan {
+    std::string name, title, kind;
+    std::vector<Assignment> fixed; ///< beside what the measuring needs
+    double goal;                   ///< of the radius: what tessellation may cost a landing point
+    SlopeConclusion conclusion;
+};
+
+Experiment map_experiment(const ClaimContext &context, const MapPlan &plan) {
     const std::string size = context.quick ? "64" : "128";
-    Experiment e = context.experiment(kind + "-map", fmt::format("where each ray lands behind the {} orb", kind), kind,
-                                      {assign("image.width_px", size), assign("image.height_px", size)},
-                                      {assign("card.surface", "coordinate"), assign("glass.coating", "antireflective"),
-                                       assign("glass.interface_transmittance", "1")});
+    std::vector<Assignment> fixed{assign("card.surface", "coordinate"), assign("glass.coating", "antireflective"),
+                                  assign("glass.interface_transmittance", "1")};
+    fixed.insert(fixed.end(), plan.fixed.begin(), plan.fixed.end());
+    Experiment e = context.experiment(plan.name, plan.title, plan.kind,
+                                      {assign("image.width_px", size), assign("image.height_px", size)}, fixed);
     e.sampling = Sampling::pixel_centres;
     e.samples_per_pixel = 1;
     e.shift_replicates = true;
@@ -81,7 +133,7 @@ Experiment map_experiment(const ClaimContext &context, const std::string &kind) 
     const Scene scene = e.scene;
     const OrbInScene orb = orb_of(scene);
     const double leverage = landing_leverage(scene, clear_share, 0.95);
-    e.surface_tolerance_mm = std::max(landing_goal / leverage, finest_surface) * orb.optics.outer_mm;
+    e.surface_tolerance_mm = std::max(plan.goal / leverage, finest_surface) * orb.optics.outer_mm;
     const double eye = glm::length(scene.camera.eye_mm - orb.centre_mm);
     const double plane = std::abs(orb.centre_mm.z - card_of(scene).centre_mm.z);
     const double paraxial = optics::paraxial_slope(orb.optics, eye, plane);
@@ -103,13 +155,17 @@ Experiment map_experiment(const ClaimContext &context, const std::string &kind) 
             {"landing error, 95th percentile", "radii", Relation::equal, 0, landing},
             {"central slope", "", Relation::equal, paraxial, slope, true},
         };
-        // The conclusion itself, in the words of the study.
-        expected.push_back(
-            kind == "solid"
-                ? Expected{"central slope of a solid orb is negative (inverted)", "", Relation::below, 0, {}}
-                : Expected{"central slope of a hollow orb is positive (upright)", "", Relation::above, 0, {}});
+        // Near a slope of 0 one point of the plane fills the view, and its size has no meaning.
+        if (std::abs(paraxial) > least_slope) {
+            std::vector<BudgetItem> magnification = slope;
+            for (BudgetItem &item : magnification) item.value *= 1.1 / (paraxial * paraxial);
+            expected.push_back(
+                {"image magnification on the axis", "", Relation::equal, 1 / paraxial, magnification, true});
+        }
+        expected.push_back({plan.conclusion.quantity, "", plan.conclusion.relation, plan.conclusion.threshold, {}});
         return expected;
     };
+    e.draw = [=](const Image &image, const Camera &camera) { return displacements(scene, orb, image, camera); };
     e.measure = [=](const Image &image, const Camera &camera) {
         std::vector<double> errors = landing_errors_mm(scene, orb, image, camera);
         const double p95 = quantile(std::move(errors), 0.95) / orb.optics.outer_mm;
@@ -122,9 +178,8 @@ Experiment map_experiment(const ClaimContext &context, const std::string &kind) 
         const double slope = fitted - exact + paraxial;
         return std::vector<Reading>{{"landing error, 95th percentile", p95},
                                     {"central slope", slope},
-                                    {kind == "solid" ? "central slope of a solid orb is negative (inverted)"
-                                                     : "central slope of a hollow orb is positive (upright)",
-                                     slope}};
+                                    {"image magnification on the axis", 1 / slope},
+                                    {plan.conclusion.quantity, slope}};
     };
     return e;
 }
@@ -178,6 +233,61 @@ Experiment picture_experiment(const ClaimContext &context, const std::string &ki
     return e;
 }
 
+/// An orb, and how far the eye and the plane are from its centre.
+struct View {
+    optics::Orb<double> orb;
+    double eye_mm, plane_mm;
+};
+
+View view_of(const ClaimContext &context, std::string_view kind) {
+    const Scene scene = context.experiment("", "", kind, {}, {}).scene;
+    const OrbInScene orb = orb_of(scene);
+    return {orb.optics, glm::length(scene.camera.eye_mm - orb.centre_mm),
+            std::abs(orb.centre_mm.z - card_of(scene).centre_mm.z)};
+}
+
+/// What --set takes, so that what is reported can be rendered.
+constexpr double greatest_index = 10;
+
+std::optional<double> flip_index(const View &view) {
+    const auto index = optics::critical_inversion_index(view.orb.outer_mm, view.eye_mm, view.plane_mm);
+    return index && *index * (1 + bracket_share) < greatest_index ? index : std::nullopt;
+}
+
+/// The orb must not reach the plane; a plane nearer than its surface cannot be rendered.
+std::optional<double> flip_plane(const View &view) {
+    const auto plane = optics::plane_where_magnifying_ends(view.orb, view.eye_mm);
+    return plane && *plane * (1 - bracket_share) > 1.001 * view.orb.outer_mm ? plane : std::nullopt;
+}
+
+std::vector<Experiment> flip_experiments(const ClaimContext &context) {
+    const View view = view_of(context, "solid");
+    std::vector<Experiment> all;
+    const auto add = [&](std::string_view what, std::string_view parameter, const BracketSide &side,
+                         const SlopeConclusion &conclusion) {
+        all.push_back(map_experiment(
+            context, {fmt::format("solid-vs-hollow-{}-{}", what, side.label),
+                      fmt::format("a solid orb just {} the {} where it flips, {:.5g}", side.label, what, side.value),
+                      "solid",
+                      {assign(parameter, side.value)},
+                      flip_goal,
+                      conclusion}));
+    };
+    if (const auto index = flip_index(view))
+        for (const BracketSide &side : bracket_of(*index))
+            add("index", "glass.index", side,
+                side.label == "below"
+                    ? SlopeConclusion{"central slope is positive (upright) below the index", Relation::above, 0}
+                    : SlopeConclusion{"central slope is negative (inverted) above the index", Relation::below, 0});
+    if (const auto plane = flip_plane(view))
+        for (const BracketSide &side : bracket_of(*plane))
+            add("plane", "card.distance_mm", side,
+                side.label == "below"
+                    ? SlopeConclusion{"central slope is above -1 (magnified) nearer than it", Relation::above, -1}
+                    : SlopeConclusion{"central slope is below -1 (reduced) beyond it", Relation::below, -1});
+    return all;
+}
+
 /// Which of the materials in the debate lie above an index.
 std::string materials_above(double index) {
     struct Material {
@@ -198,9 +308,25 @@ Claim claim_solid_vs_hollow() {
     claim.name = "solid-vs-hollow";
     claim.statement = "A solid orb inverts what lies behind it, a hollow one does not.";
     claim.experiments = [](const ClaimContext &context) {
-        return std::vector{view_experiment(context, "solid"),    view_experiment(context, "hollow"),
-                           map_experiment(context, "solid"),     map_experiment(context, "hollow"),
-                           picture_experiment(context, "solid"), picture_experiment(context, "hollow")};
+        std::vector all{
+            view_experiment(context, "solid"),
+            view_experiment(context, "hollow"),
+            map_experiment(context, {"solid-map",
+                                     "where each ray lands behind the solid orb",
+                                     "solid",
+                                     {},
+                                     landing_goal,
+                                     {"central slope of a solid orb is negative (inverted)", Relation::below, 0}}),
+            map_experiment(context, {"hollow-map",
+                                     "where each ray lands behind the hollow orb",
+                                     "hollow",
+                                     {},
+                                     landing_goal,
+                                     {"central slope of a hollow orb is positive (upright)", Relation::above, 0}}),
+            picture_experiment(context, "solid"),
+            picture_experiment(context, "hollow")};
+        for (Experiment &e : flip_experiments(context)) all.push_back(std::move(e));
+        return all;
     };
     claim.summary = [](const ClaimContext &, Verdict verdict) {
         switch (verdict) {
@@ -217,32 +343,48 @@ Claim claim_solid_vs_hollow() {
     };
     claim.notes = [](const ClaimContext &context) {
         std::vector<std::string> notes;
-        const Experiment solid = context.experiment("", "", "solid", {}, {}),
-                         hollow = context.experiment("", "", "hollow", {}, {});
-        const OrbInScene ball = orb_of(solid.scene), shell = orb_of(hollow.scene);
-        const auto distances = [](const Scene &scene, const OrbInScene &orb) {
-            return std::pair(glm::length(scene.camera.eye_mm - orb.centre_mm),
-                             std::abs(orb.centre_mm.z - card_of(scene).centre_mm.z));
-        };
-        const auto [eye, plane] = distances(solid.scene, ball);
-        if (const auto index = optics::critical_inversion_index(ball.optics.outer_mm, eye, plane))
-            notes.push_back(fmt::format("It flips at an index of {:.4f}: a solid orb inverts this plane only above it "
-                                        "(here {:g}), not at every index denser than air.{}",
-                                        *index, ball.optics.index, materials_above(*index)));
-        if (const auto magnification = optics::image_magnification(ball.optics, eye, plane))
+        const View solid = view_of(context, "solid"), hollow = view_of(context, "hollow");
+        if (const auto index = flip_index(solid))
+            notes.push_back(fmt::format("Not \"any orb denser than air\", as the study says: a solid orb inverts this "
+                                        "plane only above an index of {:.4f} (here {:g}).{}",
+                                        *index, solid.orb.index, materials_above(*index)));
+        else
+            notes.emplace_back("At these distances no index makes a solid orb invert the plane.");
+        if (const auto magnification = optics::image_magnification(solid.orb, solid.eye_mm, solid.plane_mm))
             notes.push_back(
-                fmt::format("The solid orb shows the plane {:.3f} times its size on the axis (negative: inverted).",
-                            *magnification));
-        if (const auto where = optics::plane_where_magnifying_ends(ball.optics, eye))
+                fmt::format("The solid orb shows the plane {:.3f} times its size on the axis (negative: inverted).{}",
+                            *magnification,
+                            std::abs(*magnification) < 1 ? " It reduces it; the study says that it magnifies." : ""));
+        if (const auto where = flip_plane(solid))
             notes.push_back(fmt::format("It magnifies planes nearer than {:.4g} mm behind its centre and reduces those "
                                         "farther away (here {:g} mm).",
-                                        *where, plane));
-        const auto [shell_eye, shell_plane] = distances(hollow.scene, shell);
-        const double slope = optics::paraxial_slope(shell.optics, shell_eye, shell_plane);
+                                        *where, solid.plane_mm));
+        else
+            notes.emplace_back("From so near an eye the solid orb magnifies every plane that it inverts.");
+        const double slope = optics::paraxial_slope(hollow.orb, hollow.eye_mm, hollow.plane_mm);
         notes.push_back(
             fmt::format("The hollow orb's slope on the axis is {:.4f}: {}, and shown {:.3f} times its size.", slope,
                         slope > 0 ? "upright" : "inverted", std::abs(1 / slope)));
         return notes;
+    };
+    claim.flips = [](const ClaimContext &context) {
+        const View solid = view_of(context, "solid");
+        std::vector<FlipPoint> flips;
+        if (const auto index = flip_index(solid))
+            flips.push_back({"glass.index",
+                             "",
+                             *index,
+                             solid.orb.index,
+                             "a solid orb inverts the plane only above this index",
+                             {"solid-vs-hollow-index-below", "solid-vs-hollow-index-above"}});
+        if (const auto plane = flip_plane(solid))
+            flips.push_back({"card.distance_mm",
+                             "mm",
+                             *plane,
+                             solid.plane_mm,
+                             "a solid orb magnifies a plane nearer than this, and reduces one beyond",
+                             {"solid-vs-hollow-plane-below", "solid-vs-hollow-plane-above"}});
+        return flips;
     };
     claim.mutant = Fault::index_one_percent;
     return claim;

@@ -15,6 +15,11 @@ std::vector<Claim> built_in_claims() {
         claim_energy(),
         claim_solid_vs_hollow(),
         claim_rim_reads_wall(),
+        claim_soft_light(),
+        claim_three_lines(),
+        claim_folds(),
+        claim_wall_limit(),
+        claim_shift(),
     };
 }
 

@@ -184,7 +184,8 @@ Json from_render(const RenderRecord &r) {
           {"surface_mm", real(r.accuracy.surface_mm)},
           {"rounding_mm", real(r.accuracy.rounding_mm)},
           {"filter_px", real(r.accuracy.filter_px)},
-          {"cut_weight", real(r.accuracy.cut_weight)}}},
+          {"cut_weight", real(r.accuracy.cut_weight)},
+          {"lost_paths", real(r.accuracy.lost_paths)}}},
         {"scene_hash", text(r.scene_hash)},
     };
 }

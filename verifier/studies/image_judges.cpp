@@ -69,7 +69,7 @@ ImageJudgement judge_by_z_test(const Image &mean, const Image &variance, const I
             failing += !(p > alpha);
         }
     const double share = failing / (3 * pixels);
-    return {share > 1 - passing, share, 1 - passing};
+    return {pixels - failing / 3 < passing * pixels, share, 1 - passing};
 }
 
 Image variance_of_a_sample(const std::vector<Image> &replicates, double samples_per_pixel) {

@@ -25,7 +25,7 @@ SmallestFault smallest_real(const FaultEntry &entry, const std::function<bool(do
     double high = 1, low = 0.1; // shares of the listed departure; `high` is caught
     while (caught(low)) {
         high = low;
-        if (low <= least_share) return found;
+        if (low < 2 * least_share) return found;
         low /= 10;
     }
     while (high / low > resolution) {

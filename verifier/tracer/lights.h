@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which lights a sample looks at. A pixel's samples share the many weak lights among themselves: each asks for every
-// m-th of them, m times as strong, so that m samples together ask for all. Lights that alone are a good part of the
-// whole are asked for by every sample: left out of some, they would leave much noise.
+// Which lights a sample looks at: the samples of a pixel share the many weak ones among themselves.
 #pragma once
 
 #include <algorithm>
@@ -13,50 +11,33 @@
 
 namespace threefold::tracer {
 
-/// The part of the weak lights that one sample asks for: those with index `first`, `first + stride`, ...
-struct LightShare {
-    std::size_t first = 0, stride = 1;
+struct Light {
+    Vec3 towards; ///< unit length
+    Rgb irradiance;
 };
 
 class Lights {
 public:
-    struct Light {
-        Vec3 towards; ///< unit length
-        Rgb irradiance;
-    };
-
-    explicit Lights(const std::vector<Directional> &lights) {
-        constexpr double strong = 0.02; // of all light
-        double sum = 0;
-        for (const Directional &light : lights) sum += strength(light);
-        for (const Directional &light : lights)
-            if (strength(light) > 0)
-                (strength(light) > strong * sum ? strong_ : weak_)
-                    .push_back({-glm::normalize(light.travel), light.irradiance});
+    Lights(const Scene &scene, int samples) {
+        constexpr std::size_t fewest = 8; // lights in a share: fewer are seen as noise in a single sample
+        const std::vector<Directional> all = lights_on_diffuse(scene);
+        // A divisor of the number of samples, so that they ask for each share equally often.
+        const auto asked = static_cast<std::size_t>(std::max(samples, 1));
+        std::size_t shares = std::clamp<std::size_t>(all.size() / fewest, 1, asked);
+        while (asked % shares != 0) --shares;
+        for (const std::vector<Directional> &part : shared_lights(all, shares)) {
+            std::vector<Light> &share = shares_.emplace_back();
+            for (const Directional &light : part) share.push_back({-glm::normalize(light.travel), light.irradiance});
+        }
     }
 
-    /// Calls `ask(light, factor)` for every light that the share holds. Over all shares of one stride each light is
-    /// asked for with factors that average to 1.
-    template <class Ask>
-    void for_each(LightShare share, Ask &&ask) const {
-        for (const Light &light : strong_) ask(light, 1.0);
-        for (std::size_t i = share.first; i < weak_.size(); i += share.stride)
-            ask(weak_[i], static_cast<double>(share.stride));
-    }
-
-    /// The share of sample `k` of a pixel with so many; `turn` differs between pixels.
-    LightShare share(std::size_t k, std::size_t samples, std::size_t turn) const {
-        constexpr std::size_t fewest = 4; // lights in a share: their noise would be seen in a single sample
-        const std::size_t stride = std::clamp<std::size_t>(weak_.size() / fewest, 1, std::max<std::size_t>(samples, 1));
-        return {(k + turn) % stride, stride};
+    /// For sample `k` of a pixel; `turn` differs between pixels.
+    const std::vector<Light> &share(std::size_t k, std::size_t turn) const {
+        return shares_[(k + turn) % shares_.size()];
     }
 
 private:
-    static double strength(const Directional &light) {
-        return std::max({light.irradiance.r, light.irradiance.g, light.irradiance.b});
-    }
-
-    std::vector<Light> strong_, weak_;
+    std::vector<std::vector<Light>> shares_;
 };
 
 } // namespace threefold::tracer

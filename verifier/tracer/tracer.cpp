@@ -63,15 +63,15 @@ std::vector<Orb<Real>> orbs_of(const Scene &scene, const Slip &slip) {
 template <class Real>
 class World {
 public:
-    World(const Scene &scene, const Slip &slip, const TreeEnd<Real> &end)
+    World(const Scene &scene, const Slip &slip, const TreeEnd<Real> &end, int samples)
         : scene_(scene), end_(end), orbs_(orbs_of<Real>(scene, slip)), surfaces_(scene, std::is_same_v<Real, double>),
-          lights_(lights_on_diffuse(scene)) {}
+          lights_(scene, samples) {}
 
     /// What one thread and one sample carry along.
     struct Path {
         std::deque<TreeScratch<Real>> scratch;
         PixelSampler *sampler = nullptr;
-        LightShare lights;
+        const std::vector<Light> *lights = nullptr;
         double dropped = 0;
     };
 
@@ -84,7 +84,7 @@ public:
         const Ray exact{Vec3(ray.origin), Vec3(ray.direction)};
         const auto hit = surfaces_.intersect(exact);
         if (hit && (orb == none || hit->distance <= static_cast<double>(entry.distance)))
-            return leaving(*hit, path.lights);
+            return leaving(*hit, *path.lights);
         if (orb == none) return scene_.environment ? scene_.environment->radiance : Rgb(0);
         if (depth >= greatest_depth) {
             path.dropped += weight;
@@ -119,14 +119,14 @@ private:
         return found;
     }
 
-    Rgb leaving(const SurfaceHit &hit, LightShare share) const {
+    Rgb leaving(const SurfaceHit &hit, const std::vector<Light> &lights) const {
         const auto reflectance = surfaces_.reflectance(hit);
         if (!reflectance) return surfaces_.emitted(hit);
         Rgb irradiance(0);
-        lights_.for_each(share, [&](const Lights::Light &light, double factor) {
+        for (const Light &light : lights) {
             const double cosine = glm::dot(light.towards, hit.normal);
-            if (cosine > 0) irradiance += light.irradiance * (factor * cosine * passed(hit, light.towards));
-        });
+            if (cosine > 0) irradiance += light.irradiance * (cosine * passed(hit, light.towards));
+        }
         return *reflectance * irradiance / std::numbers::pi;
     }
 
@@ -161,10 +161,10 @@ double process_cpu_seconds() {
 template <class Real>
 void render(const RenderJob &job, const TreeEnd<Real> &end, const std::function<void(double)> &on_progress,
             TracerOutcome &outcome) {
-    const World<Real> world(job.scene, job.slip, end);
     const Camera &camera = job.scene.camera;
     const int width = camera.image_width_px(), height = camera.image_height_px();
     const int samples = job.sampling == Sampling::box ? job.samples_per_pixel : 1;
+    const World<Real> world(job.scene, job.slip, end, samples);
     const double pixels = static_cast<double>(width) * height * static_cast<double>(job.replicates.size());
 
     std::atomic<double> done = 0;
@@ -181,8 +181,7 @@ void render(const RenderJob &job, const TreeEnd<Real> &end, const std::function<
             const auto turn = static_cast<std::size_t>(sampler.next() * 65536);
             Rgb sum(0);
             for (int k = 0; k < samples; ++k) {
-                path.lights =
-                    world.lights().share(static_cast<std::size_t>(k), static_cast<std::size_t>(samples), turn);
+                path.lights = &world.lights().share(static_cast<std::size_t>(k), turn);
                 const Vec2 at =
                     job.sampling == Sampling::pixel_centres
                         ? pixel_sample(camera, column, row)
