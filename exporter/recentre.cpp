@@ -12,6 +12,7 @@
 #include <glm/geometric.hpp>
 
 #include "scenes/access.h"
+#include "scenes/geometry.h"
 
 namespace threefold {
 namespace {
@@ -32,50 +33,6 @@ std::vector<Sphere> glass_spheres(const Scene &scene) {
                               [](const Quad &) {}, [](const Mesh &) {}},
                    object.shape);
     return spheres;
-}
-
-struct Triangle {
-    Vec3 a, b, c;
-};
-
-Vec3 corner(const Quad &quad, double u, double v) {
-    return quad.centre_mm + (2 * u - 1) * quad.half_u_mm + (2 * v - 1) * quad.half_v_mm;
-}
-
-std::vector<Triangle> triangles(const Shape &shape) {
-    return std::visit(
-        overloaded{[](const GlassBall &) { return std::vector<Triangle>{}; },
-                   [](const GlassShell &) { return std::vector<Triangle>{}; },
-                   [](const Quad &quad) {
-                       const Vec3 a = corner(quad, 0, 0), b = corner(quad, 1, 0), c = corner(quad, 1, 1),
-                                  d = corner(quad, 0, 1);
-                       return std::vector<Triangle>{{a, b, c}, {a, c, d}};
-                   },
-                   [](const Mesh &mesh) {
-                       std::vector<Triangle> all;
-                       for (const glm::uvec3 &t : mesh.triangles)
-                           all.push_back({mesh.vertices_mm[t.x], mesh.vertices_mm[t.y], mesh.vertices_mm[t.z]});
-                       return all;
-                   }},
-        shape);
-}
-
-double distance_to_segment(Vec3 p, Vec3 a, Vec3 b) {
-    const Vec3 ab = b - a;
-    const double length_squared = glm::dot(ab, ab);
-    const double t = length_squared > 0 ? std::clamp(glm::dot(p - a, ab) / length_squared, 0.0, 1.0) : 0.0;
-    return glm::distance(p, a + t * ab);
-}
-
-double distance_to_triangle(Vec3 p, const Triangle &t) {
-    const Vec3 normal = glm::cross(t.b - t.a, t.c - t.a);
-    const double area = glm::length(normal);
-    const bool over_inside = area > 0 && glm::dot(glm::cross(t.b - t.a, p - t.a), normal) >= 0 &&
-                             glm::dot(glm::cross(t.c - t.b, p - t.b), normal) >= 0 &&
-                             glm::dot(glm::cross(t.a - t.c, p - t.c), normal) >= 0;
-    if (over_inside) return std::abs(glm::dot(p - t.a, normal)) / area;
-    return std::min(
-        {distance_to_segment(p, t.a, t.b), distance_to_segment(p, t.b, t.c), distance_to_segment(p, t.c, t.a)});
 }
 
 /// A clearance below this share of the radius is a contact that was meant (and rounded), not a gap to be kept open.
@@ -117,8 +74,9 @@ double smallest_gap(const Scene &scene, std::span<const Sphere> spheres) {
             if (sphere.centre_mm != other.centre_mm) keep_open(sphere, clearance(sphere, other));
     }
     for (const Object &object : scene.objects)
-        for (const Triangle &t : triangles(object.shape))
+        for_each_triangle(object.shape, [&](const Triangle &t) {
             for (const Sphere &sphere : spheres) keep_open(sphere, clearance(sphere, t));
+        });
     return gap;
 }
 
@@ -146,9 +104,10 @@ Frame render_frame(const Scene &scene) {
         frame.extent_mm =
             std::max(frame.extent_mm, glm::distance(sphere.centre_mm, frame.origin_mm) + sphere.radius_mm);
     for (const Object &object : scene.objects)
-        for (const Triangle &t : triangles(object.shape))
+        for_each_triangle(object.shape, [&](const Triangle &t) {
             for (const Vec3 &p : {t.a, t.b, t.c})
                 frame.extent_mm = std::max(frame.extent_mm, glm::distance(p, frame.origin_mm));
+        });
     frame.smallest_gap_mm = smallest_gap(scene, spheres);
     return frame;
 }

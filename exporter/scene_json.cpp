@@ -44,14 +44,18 @@ Json to_json(const Surface &surface) {
 }
 
 Json to_json(const Mesh &mesh) {
-    Json vertices = Json::array(), triangles = Json::array(), uv = Json::array();
-    for (const Vec3 &v : mesh.vertices_mm) vertices.push_back(to_json(v));
-    for (const glm::uvec3 &t : mesh.triangles) triangles.push_back({t.x, t.y, t.z});
-    for (const Vec2 &v : mesh.uv) uv.push_back(to_json(v));
-    const Json all{vertices, triangles, uv};
+    // Bytes, not JSON: a mesh may have millions of triangles. The lists cannot run into one another, their sizes stand
+    // beside the hash.
+    std::string bytes;
+    const auto add = [&bytes](const void *first, std::size_t size) {
+        bytes.append(static_cast<const char *>(first), size);
+    };
+    add(mesh.vertices_mm.data(), mesh.vertices_mm.size() * sizeof(Vec3));
+    add(mesh.triangles.data(), mesh.triangles.size() * sizeof(glm::uvec3));
+    add(mesh.uv.data(), mesh.uv.size() * sizeof(Vec2));
     return {{"vertices", mesh.vertices_mm.size()},
             {"triangles", mesh.triangles.size()},
-            {"hash", content_hash(all.dump())},
+            {"hash", content_hash(bytes)},
             {"surface", to_json(mesh.surface)}};
 }
 

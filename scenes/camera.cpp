@@ -40,4 +40,20 @@ Ray camera_ray(const Camera &camera, Vec2 image_px) {
     return {};
 }
 
+Vec2 image_position(const Camera &camera, const Ray &ray) {
+    const auto [right, up, forward] = camera_frame(camera);
+    const Vec2 corner = camera.crop ? Vec2(camera.crop->x_px, camera.crop->y_px) : Vec2(0);
+    const double pixel = 2 * film_half_width(camera) / camera.width_px;
+    Vec2 film(0);
+    switch (camera.projection) {
+    case Projection::perspective:
+        film = Vec2(glm::dot(ray.direction, right), glm::dot(ray.direction, up)) / glm::dot(ray.direction, forward);
+        break;
+    case Projection::orthographic:
+        film = {glm::dot(ray.origin_mm - camera.eye_mm, right), glm::dot(ray.origin_mm - camera.eye_mm, up)};
+        break;
+    }
+    return Vec2(film.x / pixel + camera.width_px / 2.0, camera.height_px / 2.0 - film.y / pixel) - corner;
+}
+
 } // namespace threefold

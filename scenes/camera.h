@@ -21,6 +21,10 @@ CameraFrame camera_frame(const Camera &camera);
 /// The ray through a position on the image (the crop when there is one) in pixels, film offset not yet added.
 Ray camera_ray(const Camera &camera, Vec2 image_px);
 
+/// The inverse: where on the image a ray of this camera passes. For a ray that does not come from the camera only its
+/// direction (perspective) or only its origin (orthographic) counts.
+Vec2 image_position(const Camera &camera, const Ray &ray);
+
 /// Image position of the centre of the pixel (column, row) as the camera samples it: film offset added.
 inline Vec2 pixel_sample(const Camera &camera, int column, int row) {
     return Vec2(column + 0.5, row + 0.5) + camera.film_offset_px;

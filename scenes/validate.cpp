@@ -22,6 +22,9 @@ namespace {
 /// Images are double RGB; a picture exists as replicate, mean, reference and difference at the same time.
 constexpr double bytes_per_pixel = 4 * 3 * sizeof(double);
 
+/// Squares of longer distances leave single precision, in which other programs compute.
+constexpr double farthest_vertex_mm = 1e9;
+
 [[noreturn]] void refuse(const std::string &what) { throw Error(Exit::bad_data, what); }
 
 bool finite(Vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
@@ -68,6 +71,39 @@ void validate(const Surface &surface) {
                surface);
 }
 
+bool needs_uv(const Surface &surface) {
+    const auto is_image = [](const Paint &paint) {
+        return std::holds_alternative<std::shared_ptr<const Texture>>(paint);
+    };
+    return std::visit(overloaded{
+                          [&](const Diffuse &diffuse) { return is_image(diffuse.reflectance); },
+                          [&](const Emissive &emissive) { return is_image(emissive.radiance); },
+                          [](const CoordinateCard &) { return true; },
+                      },
+                      surface);
+}
+
+void validate(const Mesh &mesh) {
+    if (mesh.vertices_mm.empty() || mesh.triangles.empty()) refuse("a mesh is empty");
+    for (const Vec3 &v : mesh.vertices_mm) {
+        require_finite(v, "a mesh's vertex");
+        if (std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) > farthest_vertex_mm)
+            refuse(fmt::format("a mesh's vertex ({:g}, {:g}, {:g}) lies farther away than {:g} mm: is its unit right?",
+                               v.x, v.y, v.z, farthest_vertex_mm));
+    }
+    for (const glm::uvec3 &t : mesh.triangles)
+        if (std::max({t.x, t.y, t.z}) >= mesh.vertices_mm.size())
+            refuse("a mesh's triangle names a vertex that is not there");
+    if (!mesh.uv.empty() && mesh.uv.size() != mesh.vertices_mm.size())
+        refuse("a mesh must have no texture coordinates, or one a vertex");
+    if (mesh.uv.empty() && needs_uv(mesh.surface))
+        refuse("a mesh has no texture coordinates, and its surface needs them: it shows an image or coordinates");
+    for (const Vec2 &uv : mesh.uv)
+        if (!std::isfinite(uv.x) || !std::isfinite(uv.y))
+            refuse(fmt::format("a mesh's texture coordinates must be finite, not ({}, {})", uv.x, uv.y));
+    validate(mesh.surface);
+}
+
 void validate(const Shape &shape) {
     std::visit(overloaded{
                    [](const GlassBall &ball) {
@@ -99,16 +135,7 @@ void validate(const Shape &shape) {
                            refuse("a rectangle's sides must be perpendicular");
                        validate(quad.surface);
                    },
-                   [](const Mesh &mesh) {
-                       if (mesh.vertices_mm.empty() || mesh.triangles.empty()) refuse("a mesh is empty");
-                       for (const Vec3 &v : mesh.vertices_mm) require_finite(v, "a mesh's vertex");
-                       for (const glm::uvec3 &t : mesh.triangles)
-                           if (std::max({t.x, t.y, t.z}) >= mesh.vertices_mm.size())
-                               refuse("a mesh's triangle names a vertex that is not there");
-                       if (!mesh.uv.empty() && mesh.uv.size() != mesh.vertices_mm.size())
-                           refuse("a mesh must have no texture coordinates, or one a vertex");
-                       validate(mesh.surface);
-                   },
+                   [](const Mesh &mesh) { validate(mesh); },
                },
                shape);
 }
@@ -217,7 +244,13 @@ Needs needs(const Scene &scene) {
 }
 
 void validate(const Scene &scene) {
-    for (const Object &object : scene.objects) validate(object.shape);
+    for (const Object &object : scene.objects) {
+        try {
+            validate(object.shape);
+        } catch (const Error &error) {
+            throw Error(error.code(), fmt::format("{}: {}", object.name, error.what()), error.hint());
+        }
+    }
     for (const Directional &light : scene.lights) {
         require_finite(light.travel, "a light's direction");
         require_positive(glm::length(light.travel), "the length of a light's direction");

@@ -66,6 +66,8 @@ INSTANTIATE_TEST_SUITE_P(
     Cli, Refuses,
     testing::Values(
         BadInput{"render holow", 64, "did you mean 'hollow'"}, BadInput{"show nothing-like-it", 64, "calibration"},
+        BadInput{"gallery 3C", 64, "unknown figure '3C'"}, BadInput{"gallery 3B --scale 0", 65, "--scale must lie in"},
+        BadInput{"gallery 3B --with tracer --set orb.wal_mm=1", 64, "did you mean 'orb.wall_mm'"},
         BadInput{"check solid-vs-holow", 64, "did you mean 'solid-vs-hollow'"},
         BadInput{"render hollow --set orb.wal_mm=1", 64, "did you mean 'orb.wall_mm'"},
         BadInput{"check --with tracer --set orb.wal_mm=1 rim-reads-wall -o .", 64, "did you mean 'orb.wall_mm'"},
@@ -97,6 +99,41 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"render hollow --with povray --spp 2000000000", 65, "read back"},
         BadInput{"optics --index 0.5", 65, "index"}, BadInput{"optics --impact-mm nan", 65, "impact"},
         BadInput{"optics --rows missing.json", 74, "missing.json"}));
+
+TEST(Cli, AMeshThatIsNoneIsAnsweredInOneLineWhateverItsName) {
+    const tests::TemporaryFolder folder;
+    const std::string good = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    const auto render = [&](const std::string &quoted_name) {
+        return run(folder, "render salvator --size 8x12 --spp 1 --set hand.mesh=" + quoted_name);
+    };
+    write_file_atomically(folder / "empty.obj", "");
+    write_file_atomically(folder / "words.obj", "no mesh at all\n");
+    write_file_atomically(folder / "nan.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    write_file_atomically(folder / "index.obj", good + "f 1 2 99\n");
+    write_file_atomically(folder / "cut.gltf", "{\"asset\": {\"version\": \"2.0\"}, \"meshes\": [{");
+    fs::create_directory(folder / "folder.obj");
+    for (const char *name : {"empty.obj", "words.obj", "nan.obj", "index.obj", "cut.gltf"})
+        expect_one_clear_line(render(name), 65, std::string("cannot read mesh ") + name);
+    expect_one_clear_line(render("missing.obj"), 74, "missing.obj: No such file");
+    expect_one_clear_line(render("folder.obj"), 74, "directory");
+
+    const std::string hostile = "\"; touch pwned; $(touch pwned)\n`touch pwned`.obj";
+    const std::string quoted = "'" + hostile + "'";
+    expect_one_clear_line(render(quoted), 74, "touch pwned");
+    write_file_atomically(folder / hostile, "no mesh at all\n");
+    expect_one_clear_line(render(quoted), 65, "it has no triangles");
+    EXPECT_FALSE(fs::exists(folder / "pwned"));
+    // Only what was put there: no picture was begun.
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 7);
+}
+
+TEST(Cli, AnImageForAMeshWithoutTextureCoordinatesIsRefusedBeforeItIsRead) {
+    const tests::TemporaryFolder folder;
+    write_file_atomically(folder / "bare.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    expect_one_clear_line(
+        run(folder, "render salvator --size 8x12 --set hand.mesh=bare.obj --set hand.texture=missing.png"), 65,
+        "bare.obj has no texture coordinates");
+}
 
 TEST(Cli, HelpTeachesAndSucceeds) {
     const tests::TemporaryFolder folder;

@@ -34,6 +34,14 @@ Row row(const std::string &quantity, const std::string &witness, const std::stri
     return r;
 }
 
+/// A PNG's head is all that the page reads of it.
+std::string png_of(int width, int height) {
+    std::string png("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16);
+    for (const int side : {width, height})
+        for (const int shift : {24, 16, 8, 0}) png += static_cast<char>(side >> shift & 255);
+    return png + "the rest";
+}
+
 RunResult example() {
     RunResult r;
     r.threefold_version = "0.1.0";
@@ -96,8 +104,45 @@ RunResult hostile_result() {
             t.budget = {{hostile, .1, hostile}};
         }
         for (ReportPicture &p : c.pictures) p.experiment = p.title = hostile;
+        c.preset = hostile;
+        c.flips = {{hostile, hostile, 1, 2, hostile, {hostile}}};
+        c.pictures[0].png = png_of(8, 8);
+        c.pictures[0].marks = {{Mark::Kind::line, {1, 1}, {2, 2}, 0, Mark::Meaning::measured, hostile}};
     }
+    r.claims.push_back(r.claims.front()); // the same claim under another preset
+    r.claims.back().preset += hostile;
     for (RenderRecord &x : r.renders) x.experiment = x.witness = x.folder = x.command = x.scene_hash = hostile;
+    return r;
+}
+
+/// The example as a run under both presets: a conclusion that flips, with renders beside it and marks on its picture.
+RunResult example_under_both() {
+    RunResult r = example();
+    r.preset = "both";
+    r.verdict = Verdict::holds;
+    ClaimResult &text = r.claims[0];
+    text.preset = "text";
+    text.verdict = Verdict::holds;
+    text.blamed.clear();
+    text.tiles.clear();
+    text.rows = {row("ring", "tracer", "", Verdict::holds)};
+    text.flips = {{"glass.index", "", 1.2103, 1.51714, "it inverts only above it", {"below", "above"}}};
+    for (const auto &[name, index] : {std::pair{"below", "1.20062"}, {"above", "1.21998"}}) {
+        text.experiments.push_back({name, "beside it", "solid", {{"glass.index", index}}, "f00d"});
+        text.rows.push_back(row("slope", "tracer", "", Verdict::holds));
+        text.rows.back().experiment = name;
+    }
+    text.pictures[0].png = png_of(32, 16);
+    text.pictures[0].marks = {
+        {Mark::Kind::line, {2, 3}, {30, 4.25}, 0, Mark::Meaning::measured, "upper line"},
+        {Mark::Kind::arrow, {16, 8}, {20, 8}, 0, Mark::Meaning::measured, ""},
+        {Mark::Kind::circle, {16, 8}, {}, 7, Mark::Meaning::expected, "inner rim"},
+        {Mark::Kind::cross, {nan, 8}, {}, 0, Mark::Meaning::expected, "nowhere"},
+    };
+    ClaimResult published = text;
+    published.preset = "published";
+    published.flips[0].value = 1.1663;
+    r.claims.push_back(published);
     return r;
 }
 
@@ -162,6 +207,7 @@ TEST(ResultJson, has_every_key_in_its_documentation) {
     std::ifstream file(THREEFOLD_SOURCE_DIR "/docs/RESULT_SCHEMA.md");
     const std::string page{std::istreambuf_iterator<char>(file), {}};
     std::set<std::string> keys;
+    collect_keys(to_json(example_under_both()), keys);
     collect_keys(to_json(example()), keys);
     for (const std::string &key : keys)
         EXPECT_TRUE(std::regex_search(page, std::regex("\\b" + key + "\\b"))) << key << " is not documented";
@@ -203,6 +249,13 @@ TEST(Junit, is_well_formed_whatever_names_hold) {
     EXPECT_THAT(xml, Not(HasSubstr("&#27;")));
 }
 
+TEST(Junit, names_the_suites_of_both_presets_apart) {
+    const auto document = parse(to_junit(example_under_both()));
+    EXPECT_EQ(document.select_nodes("//testsuite[@name='wall.text']").size(), 1u);
+    EXPECT_EQ(document.select_nodes("//testsuite[@name='wall.published']").size(), 1u);
+    EXPECT_EQ(document.select_nodes("//testcase[@classname='threefold.wall.published.tracer']").size(), 3u);
+}
+
 // ---------------------------------------------------------------------------------------------------------------------
 // Terminal
 
@@ -215,6 +268,32 @@ TEST(Terminal, says_the_verdict_in_words_and_shows_rows_that_do_not_hold) {
     EXPECT_EQ(occurrences(text, "measured"), 2u);
     EXPECT_EQ(occurrences(to_text(example(), false, 1), "measured"), 3u);
     EXPECT_EQ(occurrences(to_text(example(), false, -1), "measured"), 0u);
+}
+
+TEST(Terminal, tells_a_claim_under_both_presets_once) {
+    RunResult r = example_under_both();
+    std::string text = to_text(r, false, 0);
+    EXPECT_TRUE(text.starts_with("✓ The claim holds under both presets.\n")) << text;
+    EXPECT_EQ(occurrences(text, "The ring is as wide as the wall."), 1u);
+    EXPECT_THAT(text, HasSubstr("✓ holds     under published: Threefold tracer holds"));
+    r.claims[1].verdict = r.verdict = Verdict::fails;
+    text = to_text(r, false, -1);
+    EXPECT_TRUE(text.starts_with("✗ The claim fails under published.\n")) << text;
+    EXPECT_THAT(text, HasSubstr("✗ fails     under published\n"));
+    r.claims.push_back(r.claims[0]);
+    r.claims.back().name = "palm";
+    EXPECT_THAT(to_text(r, false, 0), HasSubstr("1 of 2 claims fails under published."));
+    r.claims[0].verdict = Verdict::fails;
+    EXPECT_THAT(to_text(r, false, 0), HasSubstr("1 of 2 claims fails under both presets."));
+}
+
+TEST(Terminal, tells_where_a_conclusion_flips) {
+    EXPECT_THAT(
+        to_text(example_under_both(), false, 0),
+        HasSubstr("flips at glass.index = 1.2103 (here 1.51714, 25 % above it), bracketed by renders: holds\n"));
+    const std::string all = to_text(example_under_both(), false, 1);
+    EXPECT_THAT(all, HasSubstr("bracketed by renders at 1.2006 and 1.2200: holds"));
+    EXPECT_THAT(all, HasSubstr("it inverts only above it"));
 }
 
 TEST(Terminal, has_no_escape_codes_without_colour_whatever_names_hold) {
@@ -264,6 +343,55 @@ TEST(Html, escapes_whatever_names_hold) {
     EXPECT_EQ(occurrences(page, "alert(\""), 0u);
     EXPECT_EQ(page.find('\x1b'), std::string::npos);
     EXPECT_EQ(page, report::valid_utf8(page));
+}
+
+TEST(Html, puts_both_presets_of_a_claim_into_one_article) {
+    const std::string page = to_html(example_under_both());
+    EXPECT_EQ(occurrences(page, "<article"), 1u);
+    for (const char *part : {"The claim holds under both presets.", "id=\"claim-wall-text\"",
+                             "href=\"#claim-wall-text\"", "id=\"claim-wall-published\"", ">Under published</th>"})
+        EXPECT_EQ(occurrences(page, part), 1u + (std::string(part).starts_with("href") ? 1 : 0)) << part;
+    std::set<std::string> ids;
+    const std::regex id(" id=\"([^\"]*)\"");
+    for (std::sregex_iterator at(page.begin(), page.end(), id), end; at != end; ++at)
+        EXPECT_TRUE(ids.insert((*at)[1]).second) << (*at)[1] << " is there twice";
+}
+
+TEST(Html, tells_where_a_conclusion_flips_in_its_claim_and_in_one_table) {
+    const std::string page = to_html(example_under_both());
+    EXPECT_EQ(occurrences(page, "1.2103"), 2u);
+    EXPECT_EQ(occurrences(page, "1.1663"), 2u);
+    EXPECT_THAT(page, HasSubstr("Where each conclusion flips"));
+    EXPECT_THAT(page, HasSubstr("at 1.2006 and 1.2200"));
+    EXPECT_THAT(to_html(example()), Not(HasSubstr("Where each conclusion flips")));
+}
+
+TEST(Html, draws_marks_over_their_picture_in_its_pixels) {
+    const std::string page = to_html(example_under_both());
+    EXPECT_EQ(occurrences(page, "<svg viewBox=\"0 0 32 16\""), 2u);
+    for (const char *part : {"M2 3L30 4.25", "M9 8a7 7 0 1 0 14 0a7 7 0 1 0 -14 0", "2 marks measured, 1 mark expected",
+                             "measured: upper line. expected: inner rim.", "measured: read from the picture"})
+        EXPECT_THAT(page, HasSubstr(part));
+    EXPECT_THAT(page, Not(HasSubstr("nowhere")));
+    EXPECT_EQ(occurrences(to_html(example()), "class=\"marks\""), 0u);
+}
+
+TEST(Html, folds_away_what_holds_in_a_run_of_many_claims) {
+    RunResult r = example_under_both();
+    EXPECT_EQ(occurrences(to_html(r), "<details class=\"fold"), 0u);
+    for (const char *name : {"palm", "tint", "shift"})
+        for (int part : {0, 1}) {
+            r.claims.push_back(r.claims[static_cast<std::size_t>(part)]);
+            r.claims.back().name = name;
+        }
+    std::string page = to_html(r);
+    EXPECT_EQ(occurrences(page, "<details class=\"fold"), 16u);
+    EXPECT_EQ(occurrences(page, "<details class=\"fold\" open"), 0u) << "the numbers of what holds";
+    EXPECT_EQ(occurrences(page, "Hollow orb\" open>"), 4u) << "the marked picture of each claim, once";
+    r.claims[1].verdict = r.claims[1].rows[0].verdict = Verdict::fails;
+    page = to_html(r);
+    EXPECT_EQ(occurrences(page, "<details class=\"fold\" open"), 1u);
+    EXPECT_EQ(occurrences(page, "Hollow orb\" open>"), 5u);
 }
 
 TEST(Html, leaves_out_what_is_empty) {

@@ -25,6 +25,17 @@ void write_result(const std::string &where, const std::string &text) {
         write_file_atomically(where, text + "\n");
 }
 
+std::vector<Witness> asked_witnesses(const std::vector<std::string> &names) {
+    std::vector<Witness> found = find_witnesses(names.empty() ? witness_names() : names);
+    for (const Witness &w : found) {
+        if (names.empty() || w.present()) continue;
+        if (!w.problem.empty()) throw Error(Exit::input_output, w.problem);
+        throw Error(Exit::renderer_missing, fmt::format("{} was asked for and is not installed", w.title),
+                    fmt::format("apt-get install {}", w.package));
+    }
+    return found;
+}
+
 namespace {
 
 std::map<std::string, Fault> parse_injections(const std::vector<std::string> &injections) {
@@ -57,8 +68,11 @@ void print_plan(const CheckRequest &request) {
         for (const Claim &claim : request.claims) {
             fmt::print("{}{}\n", claim.name, request.presets.size() > 1 ? fmt::format(" ({})", to_string(preset)) : "");
             for (const Experiment &e : claim.experiments(context))
-                fmt::print("  {:<24} scene {:<20} {} x {} px, {} replicates\n", e.name, e.record.scene,
-                           e.scene.camera.image_width_px(), e.scene.camera.image_height_px(), e.replicates);
+                if (e.inspect)
+                    fmt::print("  {:<24} scene {:<20} nothing to render\n", e.name, e.record.scene);
+                else
+                    fmt::print("  {:<24} scene {:<20} {} x {} px, {} replicates\n", e.name, e.record.scene,
+                               e.scene.camera.image_width_px(), e.scene.camera.image_height_px(), e.replicates);
         }
     }
 }
@@ -96,13 +110,7 @@ Exit command_check(const Shop &shop, const CheckCommand &command) {
         print_plan(request);
         return Exit::holds;
     }
-    request.witnesses = find_witnesses(command.with.empty() ? witness_names() : command.with);
-    for (const Witness &w : request.witnesses) {
-        if (command.with.empty() || w.present()) continue;
-        if (!w.problem.empty()) throw Error(Exit::input_output, w.problem);
-        throw Error(Exit::renderer_missing, fmt::format("{} was asked for and is not installed", w.title),
-                    fmt::format("apt-get install {}", w.package));
-    }
+    request.witnesses = asked_witnesses(command.with);
 
     std::vector<std::string> names;
     for (const Witness &w : request.witnesses)

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "exporter/mesh/mesh_file.h"
 #include "exporter/temporary_folder.h"
 #include "tools/commands.h"
 #include "verifier/check/check.h"
@@ -19,6 +20,7 @@ std::vector<std::pair<std::string, std::string>> library_versions() {
     return {
         {"threefold", THREEFOLD_VERSION},
         {"Embree", tracer::embree_version()},
+        {"Assimp", assimp_version()},
         {"OpenImageIO", OIIO_VERSION_STRING},
         {"Boost", fmt::format("{}.{}.{}", BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000, BOOST_VERSION % 100)},
         {"fmt", fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)},

@@ -8,10 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "exporter/process/shell.h"
 #include "scenes/error.h"
 #include "scenes/parameters.h"
 #include "verifier/claims/claim.h"
 #include "verifier/tracer/tracer.h"
+#include "verifier/witness/witness.h"
 
 namespace threefold {
 
@@ -68,7 +70,7 @@ Exit command_render(const Shop &shop, const RenderRequest &request);
 struct CheckCommand {
     std::vector<std::string> claims;
     std::vector<std::string> with; ///< empty: all, and a missing one is no error
-    std::string preset; ///< "text", "published" or "both"; empty: both, or text in a quick run
+    std::string preset;            ///< "text", "published" or "both"; empty: both, or text in a quick run
     std::vector<std::string> assignments;
     bool quick = false, dry_run = false;
     std::filesystem::path folder = "threefold-report";
@@ -89,13 +91,28 @@ struct CompareRequest {
 };
 Exit command_compare(const Shop &shop, const CompareRequest &request);
 
+struct GalleryCommand {
+    std::vector<std::string> figures; ///< numbers; empty: all
+    std::vector<std::string> with;    ///< empty: all, and a missing one is no error
+    std::string preset = "text";
+    std::vector<std::string> assignments;
+    bool quick = false;
+    std::optional<double> scale;          ///< of the study's sizes; empty: by `quick`
+    std::optional<int> samples_per_pixel; ///< empty: by `quick`
+    std::filesystem::path folder = "threefold-gallery";
+    std::uint64_t seed = 1;
+    double time_limit_s = 7200;
+};
+Exit command_gallery(const Shop &shop, const GalleryCommand &command);
+
+/// Those asked for by name, which must be there; all, present or not, when none is named.
+std::vector<Witness> asked_witnesses(const std::vector<std::string> &names);
+
 /// Precision and transport by their names on the command line.
 TracerSettings tracer_settings(const std::string &precision, const std::string &transport);
 
 /// A line on stderr; where that cannot be written, there is nobody to tell.
 void say(const std::string &line);
-/// As one word of a shell command.
-std::string shell_quoted(const std::string &word);
 /// Error(bad_data) for what is no time.
 std::chrono::milliseconds to_time_limit(double seconds);
 

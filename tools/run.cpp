@@ -145,10 +145,9 @@ int run(int argc, char **argv, const std::vector<SceneRecipe> &scenes, const std
                     "Renderers, comma-separated: tracer, povray, cycles (default: all that are installed)")
         ->delimiter(',')
         ->allow_extra_args(false);
-    check
-        .add_option("--preset", check_command.preset,
-                    "Values of the study's wording (text), of its scene files (published), or both (the default; with "
-                    "--quick: text)");
+    check.add_option("--preset", check_command.preset,
+                     "Values of the study's wording (text), of its scene files (published), or both (the default; with "
+                     "--quick: text)");
     check
         .add_option("--set", check_command.assignments,
                     "Change a parameter of every scene that has it: name=value; repeatable")
@@ -171,6 +170,37 @@ int run(int argc, char **argv, const std::vector<SceneRecipe> &scenes, const std
     check.add_option("--precision", check_command.precision, "Tracer: float or double")->capture_default_str();
     check.add_flag("--dry-run", check_command.dry_run, "Say what would be rendered");
     add_common(check);
+
+    GalleryCommand gallery_command;
+    CLI::App &gallery =
+        *app.add_subcommand("gallery", "The study's figures, once per renderer, with an index and a contact sheet");
+    gallery.add_option("figures", gallery_command.figures, "Figures (1B, 2, 3A, ...); none: all");
+    gallery
+        .add_option("--with", gallery_command.with,
+                    "Renderers, comma-separated: tracer, povray, cycles (default: all that are installed)")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    gallery
+        .add_option("--preset", gallery_command.preset,
+                    "Values of the study's wording (text) or of its scene files (published)")
+        ->capture_default_str();
+    gallery
+        .add_option("--set", gallery_command.assignments,
+                    "Change a parameter of every scene that has it: name=value; repeatable")
+        ->allow_extra_args(false);
+    gallery.add_option("--scale", gallery_command.scale,
+                       "Size of the pictures as a share of the study's (0.5; with --quick: 0.25)");
+    gallery.add_option("--spp", gallery_command.samples_per_pixel, "Samples per pixel (9; with --quick: 4)");
+    gallery.add_flag("--quick", gallery_command.quick, "Small and coarse, to see what there is");
+    gallery
+        .add_option("-o,--output", gallery_command.folder,
+                    "Folder: index.html, contact-sheet.png, pictures; a killed run goes on there")
+        ->capture_default_str();
+    gallery.add_option("--seed", gallery_command.seed, "Seed")->capture_default_str();
+    gallery.add_option("--timeout", gallery_command.time_limit_s, "Seconds until a renderer is given up")
+        ->capture_default_str()
+        ->check(CLI::PositiveNumber);
+    add_common(gallery);
 
     CompareRequest compare_request;
     CLI::App &compare = *app.add_subcommand("compare", "Two or three pictures, tile by tile");
@@ -219,6 +249,7 @@ int run(int argc, char **argv, const std::vector<SceneRecipe> &scenes, const std
         if (export_) exit = command_export(shop, export_request);
         if (render) exit = command_render(shop, render_request);
         if (check) exit = command_check(shop, check_command);
+        if (gallery) exit = command_gallery(shop, gallery_command);
         if (compare) exit = command_compare(shop, compare_request);
         if (optics) exit = static_cast<Exit>(run_optics(optics_query, std::cout));
         std::cout.flush();

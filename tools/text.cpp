@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the commands share: lines on stderr, words for a shell, times.
+// What the commands share: lines on stderr, times.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -16,14 +16,6 @@ void say(const std::string &line) {
     std::ranges::replace_if(
         clean, [](unsigned char c) { return c < ' ' || c == 127; }, ' ');
     std::fputs((clean + "\n").c_str(), stderr);
-}
-
-std::string shell_quoted(const std::string &word) {
-    constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=:+,%@";
-    if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
-    std::string all = "'";
-    for (const char c : word) all += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return all + "'";
 }
 
 std::chrono::milliseconds to_time_limit(double seconds) {

@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 
 #include "exporter/files.h"
+#include "exporter/text.h"
 #include "scenes/error.h"
 
 namespace threefold {
@@ -23,13 +24,6 @@ namespace {
 // Larger ones are damaged headers: without a limit a file of a hundred bytes could ask for all memory.
 constexpr std::int64_t max_pixels = std::int64_t{1} << 28;
 constexpr std::int64_t max_compression = 100'000;
-
-std::string one_line(std::string text) {
-    std::replace_if(
-        text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, ' ');
-    while (!text.empty() && text.back() == ' ') text.pop_back();
-    return text.empty() ? "unknown reason" : text;
-}
 
 [[noreturn]] void throw_bad_picture(const std::filesystem::path &path, std::string reason) {
     throw Error(Exit::bad_data, fmt::format("cannot read picture {}: {}", path.string(), one_line(std::move(reason))));

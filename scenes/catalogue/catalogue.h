@@ -15,5 +15,15 @@ SceneRecipe furnace_scene();
 SceneRecipe salvator_scene();
 SceneRecipe setup_scene();
 SceneRecipe soft_light_scene();
+SceneRecipe three_lines_hollow_scene();
+SceneRecipe three_lines_solid_scene();
+SceneRecipe three_lines_bent_scene();
+SceneRecipe three_lines_setup_scene();
+SceneRecipe folds_scene();
+SceneRecipe tint_scene();
+SceneRecipe calcite_scene();
+SceneRecipe rim_scene();
+SceneRecipe white_spots_scene();
+SceneRecipe dark_layer_scene();
 
 } // namespace threefold

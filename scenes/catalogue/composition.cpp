@@ -8,9 +8,9 @@
 
 #include "scenes/access.h"
 #include "scenes/error.h"
-#include "scenes/figure/contact.h"
 #include "scenes/figure/hand.h"
 #include "scenes/figure/light.h"
+#include "scenes/geometry.h"
 
 namespace threefold {
 
@@ -76,6 +76,8 @@ bool given(const Parameters &p, const std::string &name) { return !p.word(name).
 Mesh make_hand(const Parameters &p) {
     const bool own = given(p, "hand.mesh");
     Mesh hand = own ? read_mesh(p, "hand") : figure::holding_hand(orb_centre(p), p.number("orb.radius_mm"));
+    const double drop = p.number("hand.drop_mm");
+    for (Vec3 &v : hand.vertices_mm) v.y -= drop;
     if (own)
         for (Vec3 &v : hand.vertices_mm)
             v += Vec3(p.number("hand.mesh_x_mm"), p.number("hand.mesh_y_mm"), p.number("hand.mesh_z_mm")) +
@@ -101,7 +103,7 @@ Mesh make_robe(const Parameters &p) {
                           view.eye_mm.y + scale * study_robe_mm_from_axis.y, view.plane_z_mm);
         for (Vec3 &v : robe.vertices_mm) v = origin + study_robe_scale * scale * v;
     }
-    const double nearest = figure::distance_to(robe, orb_centre(p));
+    const double nearest = distance_to(robe, orb_centre(p));
     if (nearest < p.number("orb.radius_mm"))
         throw Error(Exit::bad_data,
                     fmt::format("the robe reaches into the orb ({:.4g} mm from its centre, radius {:g} mm): "
@@ -170,6 +172,7 @@ Specs composition_parameters() {
         length("hand.mesh_x_mm", "the mesh's origin from the orb's centre, to the picture's right", -144.124),
         length("hand.mesh_y_mm", "the same, upwards", 219),
         length("hand.mesh_z_mm", "the same, towards the eye", -344.268),
+        length("hand.drop_mm", "how far the hand is lowered from its hold (negative: pushed up into the orb)", 0),
         file("hand.texture", "an image for the hand, by its mesh's texture coordinates"),
         {.name = "hand.texture_gamma",
          .description = "reflectance = sample to this power; 0: as the file declares",

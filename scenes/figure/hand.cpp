@@ -4,9 +4,9 @@
 
 #include <array>
 
-#include "scenes/figure/contact.h"
 #include "scenes/figure/drawing.h"
 #include "scenes/figure/surface_net.h"
+#include "scenes/geometry.h"
 
 namespace threefold::figure {
 

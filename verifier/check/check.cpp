@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <limits>
 #include <set>
 
 #include <fmt/chrono.h>
@@ -142,6 +143,29 @@ private:
         return *std::ranges::find(result_.witnesses, w.name, &WitnessRecord::name);
     }
 
+    /// The scene that this renderer is given.
+    Scene scene_for(const Witness &w, const Experiment &e) const {
+        const auto fault = request_.injected.find(w.name);
+        return fault == request_.injected.end() ? e.scene : with_fault(e.scene, fault->second);
+    }
+
+    /// Rows of an experiment that needs no picture; false where the renderer takes no part.
+    bool inspect(const Witness &w, const Experiment &e, ClaimResult &result) {
+        const WitnessRecord &record = record_of(w);
+        if (!record.present || broken_.contains(w.name)) return false;
+        const double done = ++finished_[w.name];
+        if (request_.on_progress) request_.on_progress(w.name, done / experiments_, e.name);
+        const std::vector<Reading> readings = e.inspect(scene_for(w, e));
+        for (const Expected &expected : e.predict(Accuracy{})) {
+            Row row = row_of(e, w, expected);
+            const auto reading = std::ranges::find(readings, expected.quantity, &Reading::quantity);
+            row.measured = {reading == readings.end() ? std::numeric_limits<double>::quiet_NaN() : reading->value, 0,
+                            std::numeric_limits<double>::infinity(), 0};
+            result.rows.push_back(judged(row));
+        }
+        return record.problem.empty();
+    }
+
     std::optional<Testimony> ask(const Witness &w, const Experiment &e, Preset preset) {
         WitnessRecord &record = record_of(w);
         if (!record.present || broken_.contains(w.name)) return std::nullopt;
@@ -151,9 +175,7 @@ private:
         };
         tell(0);
         RenderJob job;
-        job.scene = e.scene;
-        if (const auto fault = request_.injected.find(w.name); fault != request_.injected.end())
-            job.scene = with_fault(job.scene, fault->second);
+        job.scene = scene_for(w, e);
         job.sampling = e.sampling;
         job.samples_per_pixel = e.samples_per_pixel;
         job.replicates = replicates_of(e, request_.seed);
@@ -196,16 +218,23 @@ private:
         result.statement = planned.claim->statement;
         result.preset = to_string(planned.context.preset);
         bool complete = true;
+        std::map<std::string, std::vector<Testimony>> heard;
         for (const Experiment &e : planned.experiments) {
             result.experiments.push_back(e.record);
+            if (e.inspect) {
+                for (const Witness &w : request_.witnesses) complete = inspect(w, e, result) && complete;
+                continue;
+            }
             std::vector<Testimony> testimonies;
             for (const Witness &w : request_.witnesses) {
                 auto testimony = ask(w, e, planned.context.preset);
                 complete = complete && testimony && record_of(w).problem.empty();
                 if (testimony) testimonies.push_back(*std::move(testimony));
             }
-            judge_numbers(e, testimonies, result);
+            judge_numbers(e, testimonies, heard[e.partner], result);
             judge_pictures(e, testimonies, result);
+            if (std::ranges::any_of(planned.experiments, [&](const Experiment &o) { return o.partner == e.name; }))
+                heard[e.name] = std::move(testimonies);
         }
         result.verdict = complete ? Verdict::holds : Verdict::undecided;
         const bool calibrating = result.name == calibration_name;
@@ -252,7 +281,8 @@ private:
             }
     }
 
-    void judge_numbers(const Experiment &e, const std::vector<Testimony> &testimonies, ClaimResult &result) {
+    void judge_numbers(const Experiment &e, const std::vector<Testimony> &testimonies,
+                       const std::vector<Testimony> &of_partner, ClaimResult &result) {
         std::map<std::string, std::vector<std::pair<const Witness *, Row>>> between;
         for (const Testimony &t : testimonies) {
             std::map<std::string, std::vector<double>> readings;
@@ -261,17 +291,16 @@ private:
                 for (std::size_t k = 0; k < replicates.size(); ++k)
                     for (const Reading &r : e.measure(t.rendered.images[k], camera_of(e, replicates[k])))
                         readings[r.quantity].push_back(r.value);
+            const auto other = std::ranges::find(of_partner, t.witness, &Testimony::witness);
+            if (e.measure_pair && other != of_partner.end())
+                for (std::size_t k = 0; k < replicates.size(); ++k)
+                    for (const Reading &r : e.measure_pair(t.rendered.images[k], other->rendered.images[k],
+                                                           camera_of(e, replicates[k])))
+                        readings[r.quantity].push_back(r.value);
             if (!e.predict) continue;
             for (const Expected &expected : e.predict(t.rendered.record.accuracy)) {
-                Row row;
-                row.experiment = e.name;
-                row.quantity = expected.quantity;
-                row.unit = expected.unit;
-                row.witness = t.witness->name;
-                row.relation = expected.relation;
+                Row row = row_of(e, *t.witness, expected);
                 row.measured = estimate(readings[expected.quantity]);
-                row.expected = expected.value;
-                row.budget = expected.budget;
                 result.rows.push_back(judged(row));
                 if (expected.between_renderers) between[expected.quantity].emplace_back(t.witness, row);
             }
@@ -280,6 +309,18 @@ private:
             for (std::size_t i = 0; i < rows.size(); ++i)
                 for (std::size_t j = i + 1; j < rows.size(); ++j)
                     result.rows.push_back(judged(compared(rows[i].second, rows[j].second)));
+    }
+
+    static Row row_of(const Experiment &e, const Witness &w, const Expected &expected) {
+        Row row;
+        row.experiment = e.name;
+        row.quantity = expected.quantity;
+        row.unit = expected.unit;
+        row.witness = w.name;
+        row.relation = expected.relation;
+        row.expected = expected.value;
+        row.budget = expected.budget;
+        return row;
     }
 
     static Row compared(const Row &a, const Row &b) {

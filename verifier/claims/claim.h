@@ -33,7 +33,7 @@ struct Reading {
     double value;
 };
 
-/// One scene of a claim, rendered K times by every renderer.
+/// One scene of a claim, rendered K times by every renderer; or only looked at, as each renderer would be given it.
 struct Experiment {
     std::string name;  ///< "solid-map"
     std::string title; ///< for people
@@ -48,8 +48,15 @@ struct Experiment {
     double cut_weight = 1e-6;
 
     std::function<std::vector<Expected>(const Accuracy &)> predict;
+    /// Instead of rendering: numbers that stand in the scene itself, without noise (`predict` is asked about an exact
+    /// Accuracy). Nothing is rendered, and none of what follows is used.
+    std::function<std::vector<Reading>(const Scene &)> inspect;
     /// `camera` is that of the replicate: film offset included.
     std::function<std::vector<Reading>(const Image &, const Camera &camera)> measure;
+    /// A number that takes two pictures: the name of an earlier experiment of this claim with the same camera, sampling
+    /// and replicates, whose picture of the same replicate `measure_pair` gets too.
+    std::string partner;
+    std::function<std::vector<Reading>(const Image &, const Image &of_partner, const Camera &camera)> measure_pair;
     /// Tolerance on the mean of a tile (absolute radiance); empty function: pictures are not compared tile by tile.
     std::function<std::vector<BudgetItem>(const Accuracy &, const Accuracy &)> tile_budget;
     int tile_px = 8;
@@ -90,10 +97,20 @@ const Claim &find_claim(const std::vector<Claim> &claims, std::string_view name)
 Claim claim_calibration();
 Claim claim_energy();
 Claim claim_solid_vs_hollow();
+Claim claim_hand_contact();
+Claim claim_palm();
 Claim claim_rim_reads_wall();
 Claim claim_salvator();
 Claim claim_setup();
 Claim claim_soft_light();
+Claim claim_three_lines();
+Claim claim_folds();
+Claim claim_wall_limit();
+Claim claim_shift();
+Claim claim_tint();
+Claim claim_calcite();
+Claim claim_dark_layer();
+Claim claim_white_spots();
 
 /// `name=value` for whatever fmt can print, with all digits.
 Assignment assign(std::string_view name, double value);

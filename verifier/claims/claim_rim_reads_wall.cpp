@@ -5,13 +5,17 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include "verifier/claims/claim.h"
+#include "verifier/claims/flip.h"
+#include "verifier/claims/orb_marks.h"
 #include "verifier/claims/prediction.h"
 #include "verifier/measure/edges.h"
+#include "verifier/measure/optical_map.h"
 
 namespace threefold {
 
@@ -36,6 +40,179 @@ double column_of(const Camera &camera, const OrbInScene &orb, double impact_mm) 
     return low;
 }
 
+double run_wall_mm(const ClaimContext &context) {
+    return orb_of(context.experiment("", "", "rim", {}, {}).scene).optics.wall_mm;
+}
+
+double preset_wall_mm(ClaimContext context) {
+    context.assignments.clear();
+    return run_wall_mm(context);
+}
+
+Experiment width_experiment(const ClaimContext &context, const std::string &name, const std::string &title,
+                            double wall_mm) {
+    Experiment e = context.experiment(name, title, "furnace", {},
+                                      {assign("orb.kind", "hollow"), assign("glass.coating", "antireflective"),
+                                       assign("glass.interface_transmittance", "0.5"),
+                                       assign("environment.radiance", "1"), assign("orb.shift_mm", "0"),
+                                       assign("image.orb_share", orb_share), assign("orb.wall_mm", wall_mm)});
+    const OrbInScene orb = orb_of(e.scene);
+    Camera &camera = e.scene.camera;
+    const double wall_share = 0.5 * orb_share * orb.optics.wall_mm / orb.optics.outer_mm; // of the film's width
+    const double film_px = std::clamp(wall_px / wall_share, least_film_px, 1e8);
+    camera.width_px = camera.height_px = static_cast<int>(2 * std::round(film_px / 2));
+    const double middle = column_of(camera, orb, orb.optics.outer_mm - orb.optics.wall_mm / 2);
+    const int width = 2 * static_cast<int>(std::ceil(film_px * wall_share / 2)) + 2 * margin_px;
+    camera.crop = Crop{std::clamp(static_cast<int>(middle) - width / 2, 0, camera.width_px - width),
+                       (camera.height_px - rows_px) / 2, width, rows_px};
+    // Counting crossings reads the rim only where every ray beside it is totally reflected, and where both borders
+    // lie well inside the crop.
+    const double left = column_of(camera, orb, orb.optics.inner_mm),
+                 right = column_of(camera, orb, orb.optics.outer_mm);
+    const bool readable = optics::rim_width(orb.optics) > orb.optics.wall_mm * (1 - 1e-9) && left > 2 &&
+                          right < width - 2 && right - left > 2;
+    e.sampling = Sampling::box;
+    e.samples_per_pixel = 64; // coated glass does not split rays: they are cheap
+    e.surface_tolerance_mm = 0.002 * orb.optics.wall_mm;
+
+    const double expected = optics::rim_width(orb.optics);
+    e.predict = [orb, expected](const Accuracy &a) {
+        return std::vector<Expected>{
+            {"width of the rim",
+             "mm",
+             Relation::equal,
+             expected,
+             {{"tessellation", 4 * a.surface_mm, "both borders lie on tessellated spheres"},
+              {"quantisation", 8 * a.radiance_step * orb.optics.wall_mm, "shares of known brightness"},
+              {"arithmetic", 4 * a.rounding_mm, "rounding of positions"},
+              {"edge", 0.002 * orb.optics.wall_mm, "a border that curves through a pixel, and its finite samples"}},
+             true}};
+    };
+    e.measure = [orb, readable](const Image &image, const Camera &at) {
+        if (!readable) return std::vector<Reading>{{"width of the rim", std::numeric_limits<double>::quiet_NaN()}};
+        const double split = std::round(column_of(at, orb, orb.optics.outer_mm - orb.optics.wall_mm / 2));
+        double sum = 0;
+        for (int row = 0; row < image.height; ++row) {
+            const Borders b = plateau_borders(image, row, static_cast<int>(split), {1.0 / 16, 1.0 / 4, 1});
+            const auto impact = [&](double x) {
+                return impact_parameter(camera_ray(at, {x, row + 0.5}), orb.centre_mm);
+            };
+            sum += impact(b.right_px) - impact(b.left_px);
+        }
+        return std::vector<Reading>{{"width of the rim", sum / image.height}};
+    };
+    e.draw = [orb](const Image &, const Camera &camera) {
+        return std::vector{
+            impact_circle(camera, orb, orb.optics.inner_mm, Mark::Meaning::expected, "hollow"),
+            impact_circle(camera, orb, orb.optics.outer_mm, Mark::Meaning::expected, "orb"),
+        };
+    };
+    return e;
+}
+
+// Beyond the flip point the outermost rays, n r < b < R, pass the hollow by: like the rim they cross two surfaces, but
+// they go where a solid ball would send them. A card that stands there tells them apart.
+
+constexpr double band_px = 12;      ///< that band, or what is missing to it, on the film
+constexpr double same_share = 0.03; ///< of the radius: a landing so near the solid ball's is one
+const std::string rim_share = "width of the rim over the wall";
+const std::string rim_full = "the rim is as wide as the wall";
+
+/// Where a solid ball of the same glass would send the ray.
+std::optional<Vec3> solid_landing(const OrbInScene &orb, const Quad &card, const Ray &ray) {
+    OrbInScene solid = orb;
+    solid.optics = optics::solid_ball(orb.optics.outer_mm, orb.optics.index);
+    return predicted_landing(solid, card, ray);
+}
+
+Experiment edge_experiment(const ClaimContext &context, const std::string &name, const std::string &title,
+                           std::vector<Assignment> fixed) {
+    for (const Assignment &a : {assign("glass.coating", "antireflective"), assign("glass.interface_transmittance", "1"),
+                                assign("orb.shift_mm", "0"), assign("image.orb_share", orb_share)})
+        fixed.push_back(a);
+    const Scene plan = context.experiment("", "", "rim", {}, fixed).scene;
+    const OrbInScene orb = orb_of(plan);
+    const double radius = orb.optics.outer_mm, eye = glm::length(plan.camera.eye_mm - orb.centre_mm);
+    const double turn = 2 * optics::turn_at_outer(orb.optics, optics::impact_at(orb.optics, radius));
+    const double bearing = optics::eye_angle(radius, eye) - turn;
+    fixed.push_back(assign("card.bearing_deg", bearing * 180 / std::numbers::pi));
+    fixed.push_back(assign("card.distance_mm", 3 * radius));
+    fixed.push_back(assign("card.half_width_mm", 4 * radius));
+    Experiment e = context.experiment(name, title, "rim", {}, fixed);
+
+    const double off = radius - orb.optics.index * orb.optics.inner_mm; // over 0: beyond the flip point
+    const double band_mm = std::max(0.0, off), wall = orb.optics.wall_mm;
+    Camera &camera = e.scene.camera;
+    camera.width_px = camera.height_px =
+        2 * static_cast<int>(std::clamp(std::round(band_px * radius / (orb_share * std::abs(off))), 80.0, 1e8));
+    const int edge = static_cast<int>(camera.width_px / 2.0 +
+                                      impact_circle(camera, orb, radius, Mark::Meaning::expected, "").radius_px);
+    const int width = static_cast<int>(2.5 * band_px);
+    camera.crop = Crop{edge + 4 - width, (camera.height_px - rows_px) / 2, width, rows_px};
+    const double pixel_mm = 2 * film_half_width(camera) / camera.width_px * eye;
+    e.sampling = Sampling::pixel_centres;
+    e.samples_per_pixel = 1;
+    e.shift_replicates = true;
+    e.surface_tolerance_mm = 2e-5 * radius;
+    const Scene scene = e.scene;
+    e.predict = [=](const Accuracy &a) {
+        return std::vector<Expected>{
+            {rim_share,
+             "",
+             Relation::equal,
+             1 - band_mm / wall,
+             {{"pixels", 0.3 * pixel_mm / wall, "rays are counted: a third of a pixel"},
+              {"tessellation", 4 * a.surface_mm / wall, "both borders lie on tessellated spheres"},
+              {"arithmetic", 4 * a.rounding_mm / wall, "rounding of positions"}},
+             true},
+            {rim_full, "", off > 0 ? Relation::below : Relation::above, 1 - 0.5 * std::abs(off) / wall, {}}};
+    };
+    e.measure = [=](const Image &image, const Camera &at) {
+        const Quad &card = card_of(scene);
+        double count = 0;
+        for (int row = 0; row < image.height; ++row)
+            for (int column = 0; column < image.width; ++column) {
+                const Ray ray = camera_ray(at, pixel_sample(at, column, row));
+                if (!(impact_parameter(ray, orb.centre_mm) < radius)) continue;
+                const auto landed = landing_point(card, image.at(column, row));
+                const auto solid = solid_landing(orb, card, ray);
+                if (landed && solid && glm::length(*landed - *solid) < same_share * radius) count += 1;
+            }
+        const double share = 1 - count / image.height * pixel_mm / wall;
+        return std::vector<Reading>{{rim_share, share}, {rim_full, share}};
+    };
+    e.draw = [orb](const Image &, const Camera &camera_) {
+        const double passes = orb.optics.index * orb.optics.inner_mm;
+        return std::vector{
+            impact_circle(camera_, orb, orb.optics.outer_mm, Mark::Meaning::expected, "orb"),
+            impact_circle(camera_, orb, std::min(passes, orb.optics.outer_mm), Mark::Meaning::expected, "rim ends")};
+    };
+    return e;
+}
+
+/// The wall at which inner radius = R/n, at the run's index; and the index R/r, at the run's wall.
+std::vector<FlipPoint> flip_points(const ClaimContext &context) {
+    const OrbInScene orb = orb_of(context.experiment("", "", "rim", {}, {}).scene);
+    std::vector<FlipPoint> flips;
+    const double wall = orb.optics.outer_mm - optics::critical_radius(orb.optics);
+    if (wall > 1e-6 * orb.optics.outer_mm)
+        flips.push_back({"orb.wall_mm",
+                         "mm",
+                         wall,
+                         orb.optics.wall_mm,
+                         "in a thicker wall rays pass outside the hollow, and the rim is narrower than the wall",
+                         {"rim-wall-flip-below", "rim-wall-flip-above"}});
+    const double index = orb.optics.outer_mm / orb.optics.inner_mm;
+    if (index > 1 + 1e-4)
+        flips.push_back({"glass.index",
+                         "",
+                         index,
+                         orb.optics.index,
+                         "under it rays pass outside the hollow, and the rim is narrower than the wall",
+                         {"rim-index-flip-below", "rim-index-flip-above"}});
+    return flips;
+}
+
 } // namespace
 
 Claim claim_rim_reads_wall() {
@@ -45,57 +222,23 @@ Claim claim_rim_reads_wall() {
         "Seen against its surroundings, a hollow orb has a totally reflecting rim that is exactly as wide as "
         "its wall, whatever the glass.";
     claim.experiments = [](const ClaimContext &context) {
-        Experiment e =
-            context.experiment("rim", "the right edge of a hollow orb, magnified", "furnace", {},
-                               {assign("orb.kind", "hollow"), assign("glass.coating", "antireflective"),
-                                assign("glass.interface_transmittance", "0.5"), assign("environment.radiance", "1"),
-                                assign("orb.shift_mm", "0"), assign("image.orb_share", orb_share)});
-        const OrbInScene orb = orb_of(e.scene);
-        Camera &camera = e.scene.camera;
-        const double wall_share = 0.5 * orb_share * orb.optics.wall_mm / orb.optics.outer_mm; // of the film's width
-        const double film_px = std::clamp(wall_px / wall_share, least_film_px, 1e8);
-        camera.width_px = camera.height_px = static_cast<int>(2 * std::round(film_px / 2));
-        const double middle = column_of(camera, orb, orb.optics.outer_mm - orb.optics.wall_mm / 2);
-        const int width = 2 * static_cast<int>(std::ceil(film_px * wall_share / 2)) + 2 * margin_px;
-        camera.crop = Crop{std::clamp(static_cast<int>(middle) - width / 2, 0, camera.width_px - width),
-                           (camera.height_px - rows_px) / 2, width, rows_px};
-        // Counting crossings reads the rim only where every ray beside it is totally reflected, and where both borders
-        // lie well inside the crop.
-        const double left = column_of(camera, orb, orb.optics.inner_mm),
-                     right = column_of(camera, orb, orb.optics.outer_mm);
-        const bool readable = optics::rim_width(orb.optics) > orb.optics.wall_mm * (1 - 1e-9) && left > 2 &&
-                              right < width - 2 && right - left > 2;
-        e.sampling = Sampling::box;
-        e.samples_per_pixel = 64; // coated glass does not split rays: they are cheap
-        e.surface_tolerance_mm = 0.002 * orb.optics.wall_mm;
-
-        const double expected = optics::rim_width(orb.optics);
-        e.predict = [orb, expected](const Accuracy &a) {
-            return std::vector<Expected>{
-                {"width of the rim",
-                 "mm",
-                 Relation::equal,
-                 expected,
-                 {{"tessellation", 4 * a.surface_mm, "both borders lie on tessellated spheres"},
-                  {"quantisation", 8 * a.radiance_step * orb.optics.wall_mm, "shares of known brightness"},
-                  {"arithmetic", 4 * a.rounding_mm, "rounding of positions"},
-                  {"edge", 0.002 * orb.optics.wall_mm, "a border that curves through a pixel, and its finite samples"}},
-                 true}};
-        };
-        e.measure = [orb, readable](const Image &image, const Camera &at) {
-            if (!readable) return std::vector<Reading>{{"width of the rim", std::numeric_limits<double>::quiet_NaN()}};
-            const double split = std::round(column_of(at, orb, orb.optics.outer_mm - orb.optics.wall_mm / 2));
-            double sum = 0;
-            for (int row = 0; row < image.height; ++row) {
-                const Borders b = plateau_borders(image, row, static_cast<int>(split), {1.0 / 16, 1.0 / 4, 1});
-                const auto impact = [&](double x) {
-                    return impact_parameter(camera_ray(at, {x, row + 0.5}), orb.centre_mm);
-                };
-                sum += impact(b.right_px) - impact(b.left_px);
+        const double own = run_wall_mm(context), thin = preset_wall_mm(context);
+        std::vector all{width_experiment(context, "rim", "the right edge of a hollow orb, magnified", own)};
+        if (own != thin)
+            all.push_back(width_experiment(context, "rim-thin", "the same with the study's thin wall", thin));
+        if (own != 2 * thin)
+            all.push_back(width_experiment(context, "rim-thick", "the same with the study's thick wall", 2 * thin));
+        for (const FlipPoint &flip : flip_points(context))
+            for (std::size_t k = 0; k < 2; ++k) {
+                const BracketSide side = bracket_of(flip.value)[k];
+                const bool of_index = flip.parameter == "glass.index";
+                const double value = of_index ? std::max(side.value, (1 + flip.value) / 2) : side.value;
+                all.push_back(edge_experiment(context, flip.bracket[k],
+                                              fmt::format("the outermost rays, at {} just {} the flip point",
+                                                          of_index ? "an index" : "a wall", side.label),
+                                              {assign(flip.parameter, value)}));
             }
-            return std::vector<Reading>{{"width of the rim", sum / image.height}};
-        };
-        return std::vector{e};
+        return all;
     };
     claim.summary = [](const ClaimContext &, Verdict verdict) {
         switch (verdict) {
@@ -110,12 +253,13 @@ Claim claim_rim_reads_wall() {
         return "";
     };
     claim.notes = [](const ClaimContext &context) {
-        const OrbInScene orb = orb_of(context.experiment("", "", "furnace", {}, {assign("orb.kind", "hollow")}).scene);
+        const OrbInScene orb = orb_of(context.experiment("", "", "rim", {}, {}).scene);
         return std::vector<std::string>{fmt::format(
             "It flips where the wall is so thick that rays pass outside the hollow: inner radius under R/n = {:.4g} mm "
-            "(wall over {:.4g} mm at this index).",
+            "(wall over {:.4g} mm at this index). The rim is then (n - 1) r wide.",
             optics::critical_radius(orb.optics), orb.optics.outer_mm - optics::critical_radius(orb.optics))};
     };
+    claim.flips = flip_points;
     claim.mutant = Fault::wall_doubled;
     return claim;
 }

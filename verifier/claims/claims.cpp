@@ -17,8 +17,16 @@ std::vector<Claim> built_in_claims() {
         claim_solid_vs_hollow(),
         claim_rim_reads_wall(),
         claim_soft_light(),
+        claim_three_lines(),
+        claim_folds(),
+        claim_wall_limit(),
+        claim_shift(),
         claim_salvator(),
         claim_setup(),
+        claim_hand_contact(),
+        claim_palm(),
+        claim_energy(),      claim_solid_vs_hollow(), claim_rim_reads_wall(), claim_tint(),
+        claim_calcite(),     claim_dark_layer(),      claim_white_spots(),
     };
 }
 

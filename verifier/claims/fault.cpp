@@ -59,6 +59,7 @@ const std::vector<FaultEntry> &faults() {
         {Fault::camera_one_pixel, "camera+1px", "the camera's film one pixel to the right"},
         {Fault::texture_mirrored, "texture-mirrored", "images left for right"},
         {Fault::radiance_slip, "radiance+1%", "emitters and environment 1 % too bright"},
+        {Fault::orb_one_millimetre, "orb+1mm", "the orb 1 mm to the right"},
     };
     return all;
 }
@@ -95,6 +96,12 @@ Scene with_fault(Scene scene, Fault fault) {
         break;
     case Fault::texture_mirrored:
         change_images(scene, mirrored);
+        break;
+    case Fault::orb_one_millimetre:
+        for (Object &object : scene.objects) {
+            if (auto *ball = std::get_if<GlassBall>(&object.shape)) ball->centre_mm.x += 1;
+            if (auto *shell = std::get_if<GlassShell>(&object.shape)) shell->centre_mm.x += 1;
+        }
         break;
     case Fault::radiance_slip:
         change_images(scene, [](const Texture &t) { return brightened(t, slip); });

@@ -16,6 +16,7 @@ enum class Fault {
     camera_one_pixel,      ///< the film is shifted by one pixel to the right
     texture_mirrored,      ///< every image is mirrored, left for right
     radiance_slip,         ///< every emitter and the environment 1 % too bright
+    orb_one_millimetre,    ///< every orb stands 1 mm to the right
 };
 
 struct FaultEntry {

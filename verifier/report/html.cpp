@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -19,6 +20,9 @@ namespace {
 
 using namespace report;
 
+/// With more judgements than this, what holds is folded away.
+constexpr std::size_t most_open = 4;
+
 std::string plain(std::string_view text) { return html_text(one_line(text)); }
 
 void add_head(Out &out, const RunResult &result) {
@@ -30,18 +34,19 @@ void add_head(Out &out, const RunResult &result) {
         "'unsafe-inline'; script-src 'unsafe-inline'; base-uri 'none'; form-action 'none'\">\n"
         "<meta name=\"color-scheme\" content=\"light dark\">\n<title>Threefold: {}</title>\n<style>\n{}</style>\n"
         "</head>\n<body>\n",
-        headline(result), page_style);
+        plain(headline(result)), page_style);
 }
 
 void add_verdict(Out &out, const RunResult &result) {
     std::string origin = "Threefold " + plain(result.threefold_version);
     if (!result.started.empty()) origin += " · " + plain(result.started);
-    if (!result.preset.empty()) origin += " · preset " + plain(result.preset);
+    if (!result.preset.empty())
+        origin += result.preset == "both" ? " · both presets" : " · preset " + plain(result.preset);
     if (result.quick) origin += " · quick run";
     fmt::format_to(std::back_inserter(out),
                    "<header class=\"top {0}\">\n<p class=\"origin\">{1}</p>\n<h1><span class=\"symbol\" "
                    "aria-hidden=\"true\">{2}</span> {3}.</h1>\n",
-                   to_string(result.verdict), origin, symbol(result.verdict), headline(result));
+                   to_string(result.verdict), origin, symbol(result.verdict), plain(headline(result)));
     if (!result.summary.empty())
         fmt::format_to(std::back_inserter(out), "<p class=\"lead\">{}</p>\n", html_text(result.summary));
     for (const WitnessRecord &w : result.witnesses)
@@ -85,13 +90,47 @@ void add_guide(Out &out, const RunResult &result) {
             "In the drawings, the shaded band is what the closed form allows, the bar is where the measured value lies "
             "with 90 % confidence, and the tick is its mean: a number holds when the whole bar lies in the band. ";
     if (any([](const ClaimResult &c) { return !c.pictures.empty(); }))
+        guide +=
+            any([](const ClaimResult &c) {
+                return std::ranges::any_of(c.pictures, [](const ReportPicture &p) { return !p.marks.empty(); });
+            })
+                ? "On the pictures, solid lines are what was measured and dashed ones what the closed form expects. "
+                : "";
+    if (any([](const ClaimResult &c) { return !c.pictures.empty(); }))
         guide += "Press a picture to lay the renderers' pictures over one another and flip between them.";
     if (!guide.empty()) fmt::format_to(std::back_inserter(out), "<p class=\"quiet guide\">{}</p>\n", guide);
 }
 
-/// Claims down, renderers across: where to look. A renderer without a number has no column.
-void add_overview(Out &out, const RunResult &result) {
-    if (result.claims.empty()) return;
+bool is_asked_twice(const std::vector<ClaimGroup> &groups) {
+    return std::ranges::any_of(groups, [](const ClaimGroup &g) { return g.parts.size() > 1; });
+}
+
+/// One verdict of a group, part by part.
+using Verdicts = std::vector<std::pair<const ClaimResult *, std::optional<Verdict>>>;
+
+template <class Of>
+Verdicts verdicts_of(const ClaimGroup &group, Of of) {
+    Verdicts all;
+    for (const ClaimResult *part : group.parts) all.emplace_back(part, of(*part));
+    return all;
+}
+
+/// The worst, and under which preset where that is not all of them.
+std::string combined(const Verdicts &verdicts) {
+    std::optional<Verdict> worst;
+    for (const auto &[part, verdict] : verdicts)
+        if (verdict) worst = worst ? all_of(*worst, *verdict) : *verdict;
+    if (!worst) return "<span class=\"quiet\" title=\"nothing was measured\">–</span>";
+    std::string where;
+    for (const auto &[part, verdict] : verdicts)
+        if (verdict == worst) where += (where.empty() ? "" : ", ") + plain(part->preset);
+    const bool same = std::ranges::all_of(verdicts, [&](const auto &v) { return v.second == worst; });
+    return badge(*worst) + (same ? "" : " <span class=\"quiet\">" + where + "</span>");
+}
+
+/// Claims down, presets and renderers across: where to look. A renderer without a number has no column.
+void add_overview(Out &out, const RunResult &result, const std::vector<ClaimGroup> &groups) {
+    if (groups.empty()) return;
     std::vector<const WitnessRecord *> witnesses;
     for (const WitnessRecord &w : result.witnesses)
         if (std::ranges::any_of(result.claims,
@@ -99,25 +138,34 @@ void add_overview(Out &out, const RunResult &result) {
             witnesses.push_back(&w);
     const bool pairs =
         std::ranges::any_of(result.claims, [](const ClaimResult &c) { return between_renderers(c).has_value(); });
-    out += "<section class=\"overview\">\n<h2>At a glance</h2>\n<div class=\"scroll\"><table "
-           "class=\"matrix\"><thead><tr><th "
-           "scope=\"col\">Claim</th>";
+    const bool twice = is_asked_twice(groups);
+    const std::vector<std::string> presets = twice ? presets_of(result) : std::vector<std::string>{};
+    out += "<section class=\"overview\" id=\"overview\">\n<h2>At a glance</h2>\n<div class=\"scroll\"><table "
+           "class=\"matrix\"><thead><tr><th scope=\"col\">Claim</th>";
+    for (const std::string &preset : presets)
+        fmt::format_to(std::back_inserter(out), "<th scope=\"col\">Under {}</th>", plain(preset));
     for (const WitnessRecord *w : witnesses)
         fmt::format_to(std::back_inserter(out), "<th scope=\"col\">{}</th>", plain(title_of(result, w->name)));
     if (pairs) out += "<th scope=\"col\">Renderers agree</th>";
-    out += "<th scope=\"col\">Verdict</th></tr></thead><tbody>\n";
-    const auto cell = [&](std::string_view label, std::optional<Verdict> verdict) {
-        fmt::format_to(std::back_inserter(out), "<td data-label=\"{}\">{}</td>", label,
-                       verdict ? badge(*verdict)
-                               : std::string("<span class=\"quiet\" title=\"nothing was measured\">–</span>"));
+    out += twice ? "</tr></thead><tbody>\n" : "<th scope=\"col\">Verdict</th></tr></thead><tbody>\n";
+    const auto cell = [&](std::string_view label, const std::string &content) {
+        fmt::format_to(std::back_inserter(out), "<td data-label=\"{}\">{}</td>", label, content);
     };
-    for (const ClaimResult &claim : result.claims) {
+    for (const ClaimGroup &group : groups) {
+        const ClaimResult &first = group.first();
         fmt::format_to(std::back_inserter(out), "<tr><th scope=\"row\"><a href=\"#claim-{}\">{}</a></th>",
-                       slug(claim.name), plain(claim.statement.empty() ? claim.name : claim.statement));
+                       slug(first.name), plain(first.statement.empty() ? first.name : first.statement));
+        for (const std::string &preset : presets) {
+            const ClaimResult *part = group.under(preset);
+            cell("Under " + plain(preset), part ? fmt::format("<a class=\"to-part\" href=\"#{}\">{}</a>",
+                                                              anchor_of(group, *part), badge(part->verdict))
+                                                : combined({}));
+        }
         for (const WitnessRecord *w : witnesses)
-            cell(plain(title_of(result, w->name)), against_closed_form(claim, w->name));
-        if (pairs) cell("Renderers agree", between_renderers(claim));
-        cell("Verdict", claim.verdict);
+            cell(plain(title_of(result, w->name)),
+                 combined(verdicts_of(group, [&](const ClaimResult &c) { return against_closed_form(c, w->name); })));
+        if (pairs) cell("Renderers agree", combined(verdicts_of(group, between_renderers)));
+        if (!twice) cell("Verdict", badge(group.verdict()));
         out += "</tr>\n";
     }
     out += "</tbody></table></div>\n";
@@ -127,8 +175,8 @@ void add_overview(Out &out, const RunResult &result) {
 
 constexpr std::string_view viewer = R"(<dialog id="viewer" aria-label="Pictures, enlarged">
 <div class="bar"><div class="tabs" role="group" aria-label="Picture"></div>
-<div class="modes"><button type="button" data-mode="split" aria-pressed="false">Split <kbd>S</kbd></button><button type="button" data-mode="blink" aria-pressed="false">Blink <kbd>B</kbd></button><button type="button" data-mode="close">Close <kbd>Esc</kbd></button></div></div>
-<div class="stage"><img class="under" alt=""><img class="over" alt=""><div class="divider"></div></div>
+<div class="modes"><button type="button" data-mode="split" aria-pressed="false">Split <kbd>S</kbd></button><button type="button" data-mode="blink" aria-pressed="false">Blink <kbd>B</kbd></button><button type="button" data-mode="marks" aria-pressed="true">Marks <kbd>M</kbd></button><button type="button" data-mode="close">Close <kbd>Esc</kbd></button></div></div>
+<div class="stage"><img class="under" alt=""><div class="marks-under"></div><img class="over" alt=""><div class="marks-over"></div><div class="divider"></div></div>
 <p class="says" aria-live="polite"></p>
 <input type="range" min="0" max="100" value="50" step="0.5" aria-label="Where the two pictures meet">
 </dialog>
@@ -142,8 +190,15 @@ std::string to_html(const RunResult &result) {
     add_verdict(out, result);
     out += "<main>\n";
     add_renderers(out, result);
-    add_overview(out, result);
-    for (const ClaimResult &claim : result.claims) add_claim(out, result, claim);
+    const std::vector<ClaimGroup> groups = groups_of(result);
+    add_overview(out, result, groups);
+    add_flip_table(out, groups);
+    const bool folds = result.claims.size() > most_open;
+    if (folds)
+        out += "<p class=\"all-folds\" hidden><button type=\"button\" data-folds=\"open\">Open everything</button> "
+               "<button "
+               "type=\"button\" data-folds=\"close\">Close everything</button></p>\n";
+    for (const ClaimGroup &group : groups) add_group(out, result, group, folds);
     add_record(out, result);
     out += "</main>\n";
     const bool pictures = std::ranges::any_of(result.claims, [](const ClaimResult &c) { return !c.pictures.empty(); });

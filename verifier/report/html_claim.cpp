@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One claim: what is claimed, what was found, what it looks like, and the numbers behind it.
+// The numbers behind a claim: rows, tiles, scenes.
 #include <iterator>
 #include <vector>
 
@@ -61,6 +61,7 @@ std::string expected_text(const Row &row) {
 
 std::string interval_text(const Row &row) {
     const auto &[low, high] = row.interval;
+    if (row.measured.replicates == 0 && row.measured.standard_error == 0) return "exact";
     if (low == high)
         return row.measured.replicates > 1 ? fmt::format("no spread in {}", row.measured.replicates) : "one render";
     const double step = resolution(row);
@@ -114,22 +115,6 @@ std::string tile_counts(const TileComparison &t) {
     return text + bar + "</svg>";
 }
 
-void add_experiments(Out &out, const ClaimResult &claim) {
-    if (claim.experiments.empty()) return;
-    out += "<details class=\"scenes\"><summary>Scenes and their parameters</summary>\n";
-    for (const ExperimentRecord &e : claim.experiments) {
-        fmt::format_to(std::back_inserter(out), "<h4>{}</h4><p class=\"quiet\">Scene <code>{}</code>{}</p>",
-                       plain(e.title.empty() ? e.name : e.title), plain(e.scene),
-                       e.scene_hash.empty() ? "" : ", hash <code class=\"hash\">" + plain(e.scene_hash) + "</code>");
-        if (e.parameters.empty()) continue;
-        out += "<dl class=\"parameters\">";
-        for (const auto &[name, value] : e.parameters)
-            fmt::format_to(std::back_inserter(out), "<div><dt>{}</dt><dd>{}</dd></div>", plain(name), plain(value));
-        out += "</dl>\n";
-    }
-    out += "</details>\n";
-}
-
 } // namespace
 
 std::string badge(Verdict verdict) {
@@ -165,15 +150,15 @@ void add_rows(Out &out, const RunResult &result, const ClaimResult &claim) {
     out += "</table></div>\n";
 }
 
-void add_tiles(Out &out, const RunResult &result, const ClaimResult &claim) {
+void add_tiles(Out &out, const RunResult &result, const ClaimResult &claim, const Layout &layout) {
     if (claim.tiles.empty()) return;
-    out +=
-        "<h3>The pictures, tile by tile</h3>\n<p class=\"quiet\">Two renderers' pictures of one scene, cut into square "
-        "tiles; differences in per cent of the picture's mean radiance.</p>\n"
-        "<div class=\"scroll\"><table class=\"numbers tiles\"><thead><tr><th scope=\"col\">Renderers</th><th "
-        "scope=\"col\">Worst tile</th>"
-        "<th scope=\"col\">Where</th><th scope=\"col\">Tolerance</th><th scope=\"col\">Tiles</th>"
-        "<th scope=\"col\">Verdict</th></tr></thead>\n";
+    fmt::format_to(std::back_inserter(out), "<h{0}>The pictures, tile by tile</h{0}>\n", layout.heading);
+    out += "<p class=\"quiet\">Two renderers' pictures of one scene, cut into square "
+           "tiles; differences in per cent of the picture's mean radiance.</p>\n"
+           "<div class=\"scroll\"><table class=\"numbers tiles\"><thead><tr><th scope=\"col\">Renderers</th><th "
+           "scope=\"col\">Worst tile</th>"
+           "<th scope=\"col\">Where</th><th scope=\"col\">Tolerance</th><th scope=\"col\">Tiles</th>"
+           "<th scope=\"col\">Verdict</th></tr></thead>\n";
     for (const TileComparison &t : claim.tiles) {
         const int x = t.worst_column * t.tile_px, y = t.worst_row * t.tile_px;
         const std::string where = fmt::format("column {}, row {} <span class=\"quiet\">pixels {}–{}, {}–{}</span>",
@@ -192,32 +177,20 @@ void add_tiles(Out &out, const RunResult &result, const ClaimResult &claim) {
     out += "</table></div>\n";
 }
 
-void add_claim(Out &out, const RunResult &result, const ClaimResult &claim) {
-    fmt::format_to(std::back_inserter(out),
-                   "<article class=\"claim {}\" id=\"claim-{}\">\n<header><p class=\"name\">{} {}</p>\n<h2>{}</h2>\n",
-                   threefold::to_string(claim.verdict), slug(claim.name), badge(claim.verdict), plain(claim.name),
-                   plain(claim.statement.empty() ? claim.name : claim.statement));
-    if (!claim.summary.empty())
-        fmt::format_to(std::back_inserter(out), "<p class=\"summary\">{}</p>\n", html_text(claim.summary));
-    if (!claim.blamed.empty()) {
-        std::string names;
-        for (const std::string &name : claim.blamed)
-            names += (names.empty() ? "" : ", ") + plain(title_of(result, name));
-        fmt::format_to(std::back_inserter(out), "<p class=\"blamed\">Out of line: <b>{}</b></p>\n", names);
+void add_experiments(Out &out, const ClaimResult &claim) {
+    if (claim.experiments.empty()) return;
+    out += "<details class=\"scenes\"><summary>Scenes and their parameters</summary>\n";
+    for (const ExperimentRecord &e : claim.experiments) {
+        fmt::format_to(std::back_inserter(out), "<h4>{}</h4><p class=\"quiet\">Scene <code>{}</code>{}</p>",
+                       plain(e.title.empty() ? e.name : e.title), plain(e.scene),
+                       e.scene_hash.empty() ? "" : ", hash <code class=\"hash\">" + plain(e.scene_hash) + "</code>");
+        if (e.parameters.empty()) continue;
+        out += "<dl class=\"parameters\">";
+        for (const auto &[name, value] : e.parameters)
+            fmt::format_to(std::back_inserter(out), "<div><dt>{}</dt><dd>{}</dd></div>", plain(name), plain(value));
+        out += "</dl>\n";
     }
-    if (!claim.notes.empty()) {
-        out += "<ul class=\"notes\">";
-        for (const std::string &note : claim.notes)
-            fmt::format_to(std::back_inserter(out), "<li>{}</li>", html_text(note));
-        out += "</ul>\n";
-    }
-    out += "</header>\n";
-    add_pictures(out, claim);
-    if (!claim.rows.empty()) out += "<h3>The numbers</h3>\n";
-    add_rows(out, result, claim);
-    add_tiles(out, result, claim);
-    add_experiments(out, claim);
-    out += "</article>\n";
+    out += "</details>\n";
 }
 
 } // namespace threefold::report

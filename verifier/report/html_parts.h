@@ -5,8 +5,10 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "verifier/agreement/result.h"
+#include "verifier/report/claim_groups.h"
 
 namespace threefold::report {
 
@@ -23,10 +25,25 @@ struct PictureSize {
 };
 PictureSize png_size(std::string_view png);
 
-void add_claim(Out &out, const RunResult &result, const ClaimResult &claim);
-void add_pictures(Out &out, const ClaimResult &claim);
+/// How much of a claim lies open. A run of many claims folds away what holds; everything stays on the page.
+struct Layout {
+    int heading = 3;         ///< level of the headings inside a claim
+    bool folds = false;      ///< a small run folds nothing
+    bool key_picture = true; ///< of a claim that holds, the first picture with marks stays open
+};
+
+/// A claim with all its parts: one under each preset it was judged under.
+void add_group(Out &out, const RunResult &result, const ClaimGroup &group, bool folds);
+/// "claim-palm-text": where a part starts on the page.
+std::string anchor_of(const ClaimGroup &group, const ClaimResult &part);
+
+void add_flips(Out &out, const ClaimResult &claim);
+/// All flip points of the run in one table; nothing where there are none.
+void add_flip_table(Out &out, const std::vector<ClaimGroup> &groups);
+void add_pictures(Out &out, const ClaimResult &claim, const Layout &layout);
 void add_rows(Out &out, const RunResult &result, const ClaimResult &claim);
-void add_tiles(Out &out, const RunResult &result, const ClaimResult &claim);
+void add_tiles(Out &out, const RunResult &result, const ClaimResult &claim, const Layout &layout);
+void add_experiments(Out &out, const ClaimResult &claim);
 /// What anyone needs to repeat the run: commands, versions, scenes, renders, time.
 void add_record(Out &out, const RunResult &result);
 

@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 
 #include "verifier/report/html_parts.h"
+#include "verifier/report/marks_svg.h"
+#include "verifier/report/numbers.h"
 #include "verifier/report/text.h"
 #include "verifier/report/words.h"
 
@@ -27,12 +29,13 @@ void add_picture(Out &out, const ReportPicture &picture, const std::string &scen
     const std::string title = html_text(one_line(picture.title));
     // OpenImageIO's encoder of Debian 12 takes its own string_view.
     const std::string data = OIIO::Strutil::base64_encode({picture.png.data(), picture.png.size()});
+    const std::string marks = marks_overlay(picture.marks, static_cast<double>(width), static_cast<double>(height));
     fmt::format_to(
         std::back_inserter(out),
-        R"(<figure><button type="button" class="picture{}" aria-label="Enlarge: {}"><img src="data:image/png;base64,{}" )"
-        R"(width="{}" height="{}" alt="{}, {}"></button><figcaption>{}</figcaption></figure>)"
+        R"(<figure><div class="frame"><button type="button" class="picture{}" aria-label="Enlarge: {}"><img src="data:image/png;base64,{}" )"
+        R"(width="{}" height="{}" alt="{}, {}" decoding="async"></button>{}</div><figcaption>{}</figcaption></figure>)"
         "\n",
-        width <= pixelated_up_to_px ? " small" : "", title, data, width, height, scene, title, title);
+        width <= pixelated_up_to_px ? " small" : "", title, data, width, height, scene, title, marks, title);
 }
 
 void add_strip(Out &out, const std::vector<const ReportPicture *> &pictures, const std::string &scene,
@@ -41,6 +44,18 @@ void add_strip(Out &out, const std::vector<const ReportPicture *> &pictures, con
     fmt::format_to(std::back_inserter(out), "<div class=\"strip {}\" style=\"--n:{}\">\n", kind, columns);
     for (const ReportPicture *picture : pictures) add_picture(out, *picture, scene);
     out += "</div>\n";
+}
+
+/// The picture that shows a claim best: the first with something drawn on it, or else the first.
+std::string key_experiment(const ClaimResult &claim) {
+    const auto marked = std::ranges::find_if(claim.pictures, [](const ReportPicture &p) { return !p.marks.empty(); });
+    if (marked != claim.pictures.end()) return marked->experiment;
+    return claim.pictures.empty() ? "" : claim.pictures.front().experiment;
+}
+
+bool all_rows_hold(const ClaimResult &claim, const std::string &experiment) {
+    const auto bad = [&](const auto &x) { return x.experiment == experiment && x.verdict != Verdict::holds; };
+    return std::ranges::none_of(claim.rows, bad) && std::ranges::none_of(claim.tiles, bad);
 }
 
 } // namespace
@@ -55,22 +70,36 @@ PictureSize png_size(std::string_view png) {
     return {big_endian(16), big_endian(20)};
 }
 
-void add_pictures(Out &out, const ClaimResult &claim) {
+void add_pictures(Out &out, const ClaimResult &claim, const Layout &layout) {
     std::vector<std::string> experiments;
     for (const ReportPicture &picture : claim.pictures)
         if (std::ranges::find(experiments, picture.experiment) == experiments.end())
             experiments.push_back(picture.experiment);
+    const std::string key = layout.key_picture ? key_experiment(claim) : "";
     for (const std::string &experiment : experiments) {
         std::vector<const ReportPicture *> renders, others;
+        std::vector<const Mark *> marks;
         for (const ReportPicture &picture : claim.pictures)
-            if (picture.experiment == experiment) (is_render(picture) ? renders : others).push_back(&picture);
+            if (picture.experiment == experiment) {
+                (is_render(picture) ? renders : others).push_back(&picture);
+                for (const Mark &mark : picture.marks) marks.push_back(&mark);
+            }
         const std::string title = html_text(one_line(experiment_title(claim, experiment)));
-        fmt::format_to(std::back_inserter(out), "<section class=\"experiment\" data-title=\"{}\">\n<h3>{}</h3>\n",
-                       title, title);
         const std::size_t columns = std::min(std::max(renders.size(), others.size()), greatest_columns);
+        if (layout.folds)
+            fmt::format_to(std::back_inserter(out),
+                           "<details class=\"fold experiment\" data-title=\"{1}\"{2}><summary><h{0}>{1}</h{0}> <span "
+                           "class=\"quiet\">{3}</span></summary>\n",
+                           layout.heading, title, experiment == key || !all_rows_hold(claim, experiment) ? " open" : "",
+                           count(std::ssize(renders) + std::ssize(others), "picture"));
+        else
+            fmt::format_to(std::back_inserter(out),
+                           "<section class=\"experiment\" data-title=\"{1}\">\n<h{0}>{1}</h{0}>\n", layout.heading,
+                           title);
         add_strip(out, renders, title, "renders", columns);
+        out += marks_legend(marks);
         add_strip(out, others, title, "others", columns);
-        out += "</section>\n";
+        out += layout.folds ? "</details>\n" : "</section>\n";
     }
 }
 

@@ -25,7 +25,9 @@ void add_settings(Out &out, const RunResult &result) {
             fmt::format_to(std::back_inserter(out), "<div><dt>{}</dt><dd>{}</dd></div>", plain(name), plain(value));
     };
     add("started", result.started);
-    add("parameters", result.preset.empty() ? "" : "preset " + result.preset);
+    add("parameters", result.preset.empty()     ? ""
+                      : result.preset == "both" ? "both presets"
+                                                : "preset " + result.preset);
     for (const auto &[name, value] : result.assignments) add(name, value + " (--set)");
     add("run", result.quick ? "quick: fewer replicates, smaller pictures" : "");
     out += "</dl>\n";

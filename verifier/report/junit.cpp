@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <pugixml.hpp>
 
+#include "verifier/report/claim_groups.h"
 #include "verifier/report/text.h"
 #include "verifier/report/words.h"
 
@@ -140,11 +141,14 @@ std::string to_junit(const RunResult &result) {
         add_renderers(suite, result);
         close(suite);
     }
-    for (const ClaimResult &claim : result.claims) {
-        Suite suite = add_suite(root, result, claim.name);
-        add_claim(suite, result, claim);
-        close(suite);
-    }
+    for (const ClaimGroup &group : groups_of(result))
+        for (const ClaimResult *claim : group.parts) {
+            // A claim judged under both presets is two suites with names of their own.
+            Suite suite =
+                add_suite(root, result, group.parts.size() > 1 ? claim->name + "." + claim->preset : claim->name);
+            add_claim(suite, result, *claim);
+            close(suite);
+        }
     set(root, all);
     set_seconds(root, result.seconds);
     std::ostringstream out;

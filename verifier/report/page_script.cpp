@@ -4,11 +4,20 @@
 namespace threefold::report {
 
 // Pictures of one experiment share a cross hair; enlarged, they lie on one another and can be flipped (point at a name,
-// keys 1 to 9, arrows, space), split, or blinked at 1.4 Hz, well below what is unsafe to look at.
+// keys 1 to 9, arrows, space), split, or blinked at 1.4 Hz, well below what is unsafe to look at; what was measured
+// is drawn on them until it is switched off.
 const std::string_view page_script = R"js(
 (() => {
   'use strict';
-  addEventListener('beforeprint', () => document.querySelectorAll('details').forEach(d => { d.open = true; }));
+  // What is folded away stays so on paper: opened, a run of many claims would fill hundreds of pages.
+  const folds = [...document.querySelectorAll('details.fold')];
+  const unfolded = document.querySelectorAll(folds.length ? '.why details' : 'details');
+  let opened = [];
+  addEventListener('beforeprint', () => { opened = [...unfolded].filter(d => !d.open); opened.forEach(d => { d.open = true; }); });
+  addEventListener('afterprint', () => opened.forEach(d => { d.open = false; }));
+  for (const button of document.querySelectorAll('[data-folds]'))
+    button.addEventListener('click', () => folds.forEach(d => { d.open = button.dataset.folds === 'open'; }));
+  document.querySelectorAll('.all-folds').forEach(p => { p.hidden = false; });
 
   for (const experiment of document.querySelectorAll('.experiment')) {
     experiment.addEventListener('pointermove', event => {
@@ -26,6 +35,7 @@ const std::string_view page_script = R"js(
   if (!viewer || !viewer.showModal) return;
   const find = selector => viewer.querySelector(selector);
   const tabs = find('.tabs'), stage = find('.stage'), under = find('.under'), over = find('.over'), says = find('.says'), range = find('input');
+  const underMarks = find('.marks-under'), overMarks = find('.marks-over');
   let pictures = [], chosen = 0, other = 0, preview = null, timer = 0;
 
   const fit = () => {
@@ -36,11 +46,14 @@ const std::string_view page_script = R"js(
     stage.style.width = width + 'px';
     stage.style.height = width / ratio + 'px';
   };
+  const lay = (place, picture) => place.replaceChildren(...(picture.marks ? [picture.marks.cloneNode(true)] : []));
   const draw = () => {
     const split = viewer.classList.contains('split'), shown = preview ?? chosen;
     under.src = pictures[shown].image.src;
     under.alt = pictures[shown].title;
     over.src = pictures[other].image.src;
+    lay(underMarks, pictures[shown]);
+    lay(overMarks, pictures[other]);
     [...tabs.children].forEach((tab, i) => tab.setAttribute('aria-pressed', String(i === shown)));
     says.textContent = pictures.length < 2 ? pictures[shown].title
       : split ? 'Left: ' + pictures[shown].title + '. Right: ' + pictures[other].title + '. Move the pointer to move the border.'
@@ -67,6 +80,10 @@ const std::string_view page_script = R"js(
     draw();
     fit();
   };
+  const showMarks = on => {
+    viewer.classList.toggle('unmarked', !on);
+    find('[data-mode=marks]').setAttribute('aria-pressed', String(on));
+  };
   const divide = share => {
     range.value = share;
     stage.style.setProperty('--split', share + '%');
@@ -74,7 +91,10 @@ const std::string_view page_script = R"js(
   const open = button => {
     const experiment = button.closest('.experiment');
     const buttons = [...experiment.querySelectorAll('.picture')];
-    pictures = buttons.map(b => ({ image: b.firstElementChild, title: b.parentElement.querySelector('figcaption').textContent }));
+    pictures = buttons.map(b => {
+      const figure = b.closest('figure');
+      return { image: b.firstElementChild, title: figure.querySelector('figcaption').textContent, marks: figure.querySelector('.marks') };
+    });
     chosen = buttons.indexOf(button);
     other = pictures.length > 1 ? (chosen === 0 ? 1 : 0) : 0;
     preview = null;
@@ -89,6 +109,7 @@ const std::string_view page_script = R"js(
       return tab;
     }));
     find('.modes').querySelectorAll('[data-mode=split], [data-mode=blink]').forEach(b => { b.hidden = pictures.length < 2; });
+    find('[data-mode=marks]').hidden = !pictures.some(p => p.marks);
     set('split', false);
     set('blink', false);
     divide(50);
@@ -113,12 +134,14 @@ const std::string_view page_script = R"js(
     else if (key === ' ') flip();
     else if (key === 's') toggle('split');
     else if (key === 'b') toggle('blink');
+    else if (key === 'm') showMarks(viewer.classList.contains('unmarked'));
     else return;
     event.preventDefault();
   });
   find('.modes').addEventListener('click', event => {
     const mode = event.target.closest('button')?.dataset.mode;
     if (mode === 'close') viewer.close();
+    else if (mode === 'marks') showMarks(viewer.classList.contains('unmarked'));
     else if (mode) toggle(mode);
   });
   stage.addEventListener('pointermove', event => {

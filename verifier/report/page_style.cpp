@@ -81,6 +81,32 @@ figcaption { font-size: .88rem; color: var(--quiet); padding-top: .3rem; }
 .experiment.pointed .picture::after { content: ""; position: absolute; inset: 0; pointer-events: none; mix-blend-mode: difference;
   background: linear-gradient(#fff, #fff) var(--x) 0 / 1px 100% no-repeat, linear-gradient(#fff, #fff) 0 var(--y) / 100% 1px no-repeat; opacity: .65; }
 
+.frame { position: relative; }
+.marks { position: absolute; inset: 0; pointer-events: none; container-type: inline-size; }
+.marks svg { position: absolute; inset: 0; width: 100%; height: 100%; overflow: hidden; }
+.ink, .halo { fill: none; vector-effect: non-scaling-stroke; }
+.halo { stroke: #000; stroke-opacity: .7; stroke-width: 3.6; } .ink { stroke-width: 1.6; } .ink.measured { stroke: #ffd23e; } .ink.expected { stroke: #6fe3ff; }
+path.expected { stroke-dasharray: 6 4; }
+.labels { position: absolute; inset: 0; overflow: hidden; font: 11px/1.35 var(--sans); }
+.labels span { position: absolute; max-width: 60%; overflow: hidden; text-overflow: ellipsis; white-space: nowrap; padding: 0 .35em; background: #000000b8; color: #ffd23e; transform: translate(6px, calc(-100% - 4px)); }
+.labels .expected { color: #6fe3ff; } .labels .leftwards { transform: translate(calc(-100% - 6px), calc(-100% - 4px)); }
+.labels .below { transform: translate(6px, 4px); } .labels .below.leftwards { transform: translate(calc(-100% - 6px), 4px); }
+@container (max-width: 11rem) { .labels { display: none; } }
+.legend { list-style: none; margin: -.4rem 0 .9rem; padding: 0; display: flex; flex-wrap: wrap; gap: .1rem 1.6rem; font-size: .84rem; color: var(--quiet); }
+.legend svg { vertical-align: -.15em; margin-right: .3rem; background: #6b6b6b; border-radius: 2px; }
+
+.flip { border-left: 3px solid var(--ink); padding-left: .8rem; margin: .2rem 0 .9rem; } .flip p { margin: 0; } .flip b { font-weight: 600; white-space: nowrap; }
+.flip-table td { white-space: nowrap; } .flip-table th[scope=row] { width: 46%; } .flip-table th a { font-weight: 600; }
+.part { margin-top: 2rem; padding-top: 1rem; border-top: 1px dotted var(--line); }
+.preset { font-size: 1.15rem; margin: 0 0 .8rem; } .preset .quiet { font-weight: 400; margin: 0 .8rem 0 .2rem; }
+.part > .summary { font-size: 1.05rem; }
+.fold { border-top: 1px dotted var(--line); padding: .35rem 0; } .fold[open] { padding-bottom: .8rem; }
+.fold > summary { padding: .15rem 0; } .fold > summary > h3, .fold > summary > h4 { display: inline; margin: 0 .5rem 0 0; font-size: 1rem; }
+.fold[open] > summary { margin-bottom: .6rem; } header + .fold, .notes + .fold, .flip + .fold { margin-top: 1rem; }
+.part h4, .fold h4 { font-size: 1rem; font-weight: 600; margin: 1.4rem 0 .6rem; }
+.all-folds { margin: 1.2rem 0; } .all-folds button { font: .88rem/1.3 var(--sans); color: inherit; background: var(--raised); border: 1px solid var(--line); padding: .35rem .7rem; border-radius: 3px; cursor: pointer; }
+.to-part { text-decoration: none; } .matrix td .quiet { display: block; }
+
 .numbers { font-size: .92rem; }
 .numbers .number { white-space: nowrap; }
 .numbers th[scope=row] { font-weight: 500; }
@@ -126,8 +152,9 @@ figcaption { font-size: .88rem; color: var(--quiet); padding-top: .3rem; }
 #viewer kbd { font: .78em var(--mono); opacity: .65; margin: 0 .1rem; }
 #viewer .stage { position: relative; display: grid; margin: 0 auto; overflow: hidden; touch-action: none; cursor: pointer; place-self: center; }
 #viewer .stage img { grid-area: 1 / 1; display: block; width: 100%; height: 100%; image-rendering: pixelated; user-select: none; }
-#viewer .over, #viewer .divider, #viewer input { display: none; }
-#viewer.split .over { display: block; clip-path: inset(0 0 0 var(--split)); } #viewer.split .divider { display: block; position: absolute; inset: 0 auto 0 var(--split); width: 1px; background: #fff; mix-blend-mode: difference; }
+#viewer .over, #viewer .marks-over, #viewer .divider, #viewer input { display: none; }
+#viewer .marks-under, #viewer .marks-over { grid-area: 1 / 1; position: relative; pointer-events: none; } #viewer.unmarked .marks { display: none; } #viewer .labels { font-size: 13px; }
+#viewer.split .over, #viewer.split .marks-over { display: block; clip-path: inset(0 0 0 var(--split)); } #viewer.split .divider { display: block; position: absolute; inset: 0 auto 0 var(--split); width: 1px; background: #fff; mix-blend-mode: difference; }
 #viewer.split input { display: block; width: min(40rem, 90vw); margin: 0 auto .7rem; }
 #viewer .says { margin: 0; padding: .5rem; max-width: none; text-align: center; font-size: .88rem; color: #c8c8c8; }
 #viewer :focus-visible { outline-color: #9cc2ff; }
@@ -143,7 +170,7 @@ figcaption { font-size: .88rem; color: var(--quiet); padding-top: .3rem; }
   .numbers td:empty { display: none; }
   .numbers td::before, .matrix td::before { content: attr(data-label); display: block; color: var(--quiet); font-size: .78rem; }
   .numbers td.verdict { grid-area: 1 / 2; justify-self: end; } .numbers td.verdict::before, .why > td::before, .drawing::before { display: none !important; }
-  .numbers .number { white-space: normal; } .numbers .drawing, .numbers .why td, .quantity th, .matrix tbody th, .numbers.renders th { grid-column: 1 / -1; }
+  .numbers .number { white-space: normal; } .numbers .drawing, .numbers .why td, .quantity th, .matrix tbody th, .numbers.renders th, .flip-table th { grid-column: 1 / -1; } .flip-table th[scope=row] { width: auto; } .flip-table td { white-space: normal; }
   .drawing { min-width: 0; } .interval { max-width: 22rem; }
   .row, .matrix tr { padding: .5rem 0; } .row + .row { border-top: 1px solid var(--line); } .row + .row > tr:first-child > * { border-top: 0; }
   .budget { grid-template-columns: 1fr; } .budget dd { margin-bottom: .4rem; }
@@ -157,7 +184,7 @@ figcaption { font-size: .88rem; color: var(--quiet); padding-top: .3rem; }
   body > header, main { max-width: none; padding: 0; }
   .numbers, .matrix, .numbers .badge, .matrix .badge { font-size: 8pt; } .numbers th, .numbers td { padding-right: .5rem; } .drawing { min-width: 9rem; } .scroll { overflow: visible; } .why > td { font-size: 7.5pt; }
   .claim, .record { break-before: page; } figure, .row, .quantity, h2, h3 { break-inside: avoid; } h2, h3, .quantity { break-after: avoid; }
-  #viewer { display: none !important; }
+  #viewer, .all-folds { display: none !important; }
 }
 )css";
 

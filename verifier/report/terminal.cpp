@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "verifier/report/claim_groups.h"
+#include "verifier/report/flip_words.h"
 #include "verifier/report/numbers.h"
 #include "verifier/report/text.h"
 #include "verifier/report/words.h"
@@ -51,35 +53,62 @@ std::string renderer_line(const RunResult &result, const ClaimResult &claim, con
     return line;
 }
 
-void add_item(std::string &out, const Painter &paint, Verdict verdict, const std::string &what,
-              const std::string &numbers, const std::string &advice) {
-    out += fmt::format("      {} {}\n", mark(paint, verdict), one_line(what));
-    out += fmt::format("        {}\n", one_line(numbers));
-    if (!advice.empty()) out += fmt::format("        {}\n", paint.faint(advice));
+void add_item(std::string &out, const Painter &paint, const std::string &indent, Verdict verdict,
+              const std::string &what, const std::string &numbers, const std::string &advice) {
+    out += fmt::format("{}{} {}\n", indent, mark(paint, verdict), one_line(what));
+    out += fmt::format("{}  {}\n", indent, one_line(numbers));
+    if (!advice.empty()) out += fmt::format("{}  {}\n", indent, paint.faint(advice));
 }
 
-void add_claim(std::string &out, const RunResult &result, const ClaimResult &claim, const Painter &paint,
-               std::size_t width, int verbosity) {
-    out += fmt::format("  {} {}{}  {}\n", mark(paint, claim.verdict), paint.bold(one_line(claim.name)),
-                       std::string(width - claim.name.size(), ' '), one_line(claim.statement));
-    if (verbosity < 0) return;
-    if (const std::string line = renderer_line(result, claim, paint); !line.empty()) out += "      " + line + "\n";
+/// What lies beneath a claim's line, `indent` deep.
+void add_findings(std::string &out, const RunResult &result, const ClaimResult &claim, const Painter &paint,
+                  const std::string &indent, int verbosity) {
+    for (const FlipPoint &flip : claim.flips) {
+        std::string line = "flips at " + one_line(flip_line(flip));
+        if (const auto verdict = bracket_verdict(claim, flip)) {
+            line += ", bracketed by renders" + (verbosity > 0 ? " " + one_line(bracket_text(claim, flip)) : "") + ": " +
+                    paint.verdict(*verdict, to_string(*verdict));
+        }
+        out += indent + line + "\n";
+        if (verbosity > 0 && !flip.meaning.empty()) out += indent + "  " + one_line(flip.meaning) + "\n";
+    }
     const auto shown = [&](Verdict verdict) { return verbosity > 0 || verdict != Verdict::holds; };
     for (const Row &row : claim.rows)
         if (shown(row.verdict))
             add_item(
-                out, paint, row.verdict,
+                out, paint, indent, row.verdict,
                 fmt::format("{}, {}: {}", row.quantity, experiment_title(claim, row.experiment), title_of(result, row)),
                 sentence(row), what_would_decide(row.verdict, row.replicates_to_decide));
     for (const TileComparison &tiles : claim.tiles)
         if (shown(tiles.verdict))
-            add_item(out, paint, tiles.verdict,
+            add_item(out, paint, indent, tiles.verdict,
                      fmt::format("pictures tile by tile, {}: {} against {}", experiment_title(claim, tiles.experiment),
                                  title_of(result, tiles.witness), title_of(result, tiles.versus)),
                      sentence(tiles), what_would_decide(tiles.verdict, tiles.replicates_to_decide));
-    if (claim.verdict != Verdict::holds && !claim.summary.empty()) out += "      " + one_line(claim.summary) + "\n";
+    if (claim.verdict != Verdict::holds && !claim.summary.empty()) out += indent + one_line(claim.summary) + "\n";
     if (verbosity > 0)
-        for (const std::string &note : claim.notes) out += "      " + one_line(note) + "\n";
+        for (const std::string &note : claim.notes) out += indent + one_line(note) + "\n";
+}
+
+void add_claim(std::string &out, const RunResult &result, const ClaimGroup &group, const Painter &paint,
+               std::size_t width, int verbosity) {
+    const ClaimResult &claim = group.first();
+    out += fmt::format("  {} {}{}  {}\n", mark(paint, group.verdict()), paint.bold(one_line(claim.name)),
+                       std::string(width - claim.name.size(), ' '), one_line(claim.statement));
+    if (group.parts.size() == 1) {
+        if (verbosity < 0) return;
+        if (const std::string line = renderer_line(result, claim, paint); !line.empty()) out += "      " + line + "\n";
+        return add_findings(out, result, claim, paint, "      ", verbosity);
+    }
+    const bool alike =
+        std::ranges::all_of(group.parts, [&](const ClaimResult *p) { return p->verdict == claim.verdict; });
+    if (verbosity < 0 && alike) return;
+    for (const ClaimResult *part : group.parts) {
+        const std::string line = verbosity < 0 ? "" : renderer_line(result, *part, paint);
+        out += fmt::format("      {} under {}{}{}\n", mark(paint, part->verdict), one_line(part->preset),
+                           line.empty() ? "" : ": ", line);
+        if (verbosity >= 0) add_findings(out, result, *part, paint, "        ", verbosity);
+    }
 }
 
 void add_witness(std::string &out, const WitnessRecord &witness, const Painter &paint) {
@@ -112,7 +141,7 @@ std::string to_text(const RunResult &result, bool colour, int verbosity) {
     if (!result.claims.empty()) out += "\n";
     std::size_t width = 0;
     for (const ClaimResult &claim : result.claims) width = std::max(width, claim.name.size());
-    for (const ClaimResult &claim : result.claims) add_claim(out, result, claim, paint, width, verbosity);
+    for (const ClaimGroup &group : groups_of(result)) add_claim(out, result, group, paint, width, verbosity);
     if (verbosity >= 0 && result.seconds > 0)
         out += paint.faint(fmt::format("\n{} in all, {} of it in renderers.", duration(result.seconds),
                                        duration(result.renderer_seconds))) +

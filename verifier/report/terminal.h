@@ -9,8 +9,9 @@
 namespace threefold {
 
 /// The verdict in plain words, a line a claim with its verdict per renderer, and every row that does not hold with its
-/// numbers; verbosity 1 adds the rows that hold, verbosity -1 leaves the verdict and a line a claim. A verdict is a
-/// word and a symbol, never colour alone; without `colour` there is no escape code, whatever names hold.
+/// numbers; a claim judged under both presets is told once, with what was found under each; verbosity 1 adds the rows
+/// that hold, verbosity -1 leaves the verdict and a line a claim. A verdict is a word and a symbol, never colour alone;
+/// without `colour` there is no escape code, whatever names hold.
 std::string to_text(const RunResult &result, bool colour, int verbosity);
 
 } // namespace threefold

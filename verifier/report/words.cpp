@@ -2,16 +2,39 @@
 #include "verifier/report/words.h"
 
 #include <algorithm>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "verifier/report/claim_groups.h"
 #include "verifier/report/numbers.h"
+#include "verifier/report/text.h"
 
 namespace threefold::report {
 
 namespace {
 
 std::optional<Verdict> combine(std::optional<Verdict> a, Verdict b) { return a ? all_of(*a, b) : b; }
+
+/// " under both presets", " under published"; empty for a run under one preset, and where it differs by claim.
+std::string under(const RunResult &result, const std::vector<ClaimGroup> &groups, Verdict verdict) {
+    const std::vector<std::string> presets = presets_of(result);
+    if (presets.size() < 2) return "";
+    std::vector<std::string> where; // under which some claim has this verdict
+    bool everywhere = true;         // such a claim has it under all
+    for (const ClaimGroup &group : groups) {
+        if (group.verdict() != verdict) continue;
+        for (const std::string &preset : presets) {
+            const ClaimResult *part = group.under(preset);
+            if (!part || part->verdict != verdict)
+                everywhere = false;
+            else if (std::ranges::count(where, preset) == 0)
+                where.push_back(preset);
+        }
+    }
+    if (everywhere) return " under both presets";
+    return where.size() == 1 ? " under " + one_line(where.front()) : "";
+}
 
 std::string expectation(const Row &row, double resolution) {
     const std::string value = bound_at(row.expected, resolution);
@@ -29,18 +52,23 @@ std::string expectation(const Row &row, double resolution) {
 } // namespace
 
 std::string headline(const RunResult &result) {
-    const auto with = [&](Verdict v) { return std::ranges::count(result.claims, v, &ClaimResult::verdict); };
-    const auto claims = std::ssize(result.claims);
+    const std::vector<ClaimGroup> groups = groups_of(result);
+    const auto with = [&](Verdict v) { return std::ranges::count(groups, v, &ClaimGroup::verdict); };
+    const auto claims = std::ssize(groups);
     const auto fails = with(Verdict::fails), undecided = with(Verdict::undecided);
     if (claims == 0) return "Nothing was checked";
     if (fails == 0 && undecided == 0) {
-        const std::string all = claims == 1 ? "The claim holds" : fmt::format("All {} claims hold", claims);
+        const std::string all = (claims == 1 ? "The claim holds" : fmt::format("All {} claims hold", claims)) +
+                                under(result, groups, Verdict::holds);
         return result.verdict == Verdict::holds ? all : all + ", but not everything was tested";
     }
-    if (claims == 1) return fails ? "The claim fails" : "The claim is undecided";
+    const Verdict worst = fails ? Verdict::fails : Verdict::undecided;
+    if (claims == 1) return (fails ? "The claim fails" : "The claim is undecided") + under(result, groups, worst);
     if (fails == 0)
-        return fmt::format("{} of {} claims {} undecided", undecided, claims, undecided == 1 ? "is" : "are");
-    std::string text = fmt::format("{} of {} claims {}", fails, claims, fails == 1 ? "fails" : "fail");
+        return fmt::format("{} of {} claims {} undecided{}", undecided, claims, undecided == 1 ? "is" : "are",
+                           under(result, groups, worst));
+    std::string text =
+        fmt::format("{} of {} claims {}{}", fails, claims, fails == 1 ? "fails" : "fail", under(result, groups, worst));
     if (undecided) text += fmt::format(", {} {} undecided", undecided, undecided == 1 ? "is" : "are");
     return text;
 }

@@ -10,7 +10,7 @@
 
 namespace threefold::report {
 
-/// "All 4 claims hold", "1 of 4 claims fails, 1 is undecided".
+/// "All 4 claims hold under both presets", "1 of 4 claims fails, 1 is undecided". A claim counts once.
 std::string headline(const RunResult &result);
 /// A mark that goes with the word and never stands for it: a tick, a cross, a question mark.
 std::string_view symbol(Verdict verdict);

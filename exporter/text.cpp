@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#include "exporter/text.h"
+
+#include <algorithm>
+
+namespace threefold {
+
+std::string one_line(std::string text) {
+    std::replace_if(
+        text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 127; }, ' ');
+    while (!text.empty() && text.back() == ' ') text.pop_back();
+    return text.empty() ? "unknown reason" : text;
+}
+
+} // namespace threefold

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#include "verifier/claims/fold_numbers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "verifier/claims/flip.h"
+#include "verifier/claims/fold_experiment.h"
+
+namespace threefold {
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double robe_share = 4; ///< half width of the robe over the orb's image on it: bent rays still meet it
+constexpr int circles = 16;      ///< of the ring inside; always as many, so that closed form and picture mean the same
+constexpr double bracket_radius_px = 700;
+// A fold beside a flip is narrow, so that its two edges fit a small picture; the mean jump of both differs from that of
+// the wider fold by the cosine of half its angle: less than 0.1 % up to 5 degrees.
+constexpr double narrow_deg = 1.2, wide_deg = 5;
+
+double number_in(const Experiment &e, const std::string &name) { return std::stod(e.record.parameters.at(name)); }
+
+} // namespace
+
+std::string name_of_fold(std::size_t fold) {
+    return fold == leftmost_fold ? "the leftmost fold" : fmt::format("fold {}", fold + 1);
+}
+
+std::vector<Assignment> joined(std::vector<Assignment> first, const std::vector<Assignment> &then) {
+    first.insert(first.end(), then.begin(), then.end());
+    return first;
+}
+
+std::vector<double> even_steps(double from, double to, int count) {
+    std::vector<double> values;
+    for (int k = 0; k < count; ++k) values.push_back(from + (to - from) * (k + 0.5) / count);
+    return values;
+}
+
+double eye_to_robe_mm(const Experiment &e) {
+    return number_in(e, "eye.distance_mm") + number_in(e, "card.distance_mm");
+}
+
+std::vector<double> fold_circles_mm(const Experiment &e) {
+    const double radius = number_in(e, "orb.radius_mm"), share = number_in(e, "criterion.circle_share");
+    return even_steps((share - ring_share) * radius, share * radius, circles);
+}
+
+Experiment fold_setup(const ClaimContext &context, const std::string &name, const std::string &title,
+                      const std::vector<Assignment> &defaults, const std::vector<Assignment> &fixed) {
+    const std::vector<Assignment> flat = joined({assign("robe.surface", "flat")}, fixed);
+    const Experiment sizes = context.experiment(name, title, "folds", defaults, flat);
+    const double half =
+        robe_share * number_in(sizes, "orb.radius_mm") * eye_to_robe_mm(sizes) / number_in(sizes, "eye.distance_mm");
+    return context.experiment(name, title, "folds", defaults, joined(flat, {assign("card.half_width_mm", half)}));
+}
+
+FoldNumbers fold_numbers(const ClaimContext &context, const std::vector<Assignment> &fixed) {
+    const Experiment e = fold_setup(context, "", "", {}, fixed);
+    const FoldScene scene = fold_scene_of(e.scene);
+    FoldNumbers n;
+    n.acuity_arcmin = number_in(e, "criterion.acuity_arcmin");
+    n.circle_share = number_in(e, "criterion.circle_share");
+    n.criterion_mm = eye_to_robe_mm(e) * std::tan(n.acuity_arcmin / 60 * std::numbers::pi / 180);
+    n.orb = scene.orb.optics;
+    n.eye_mm = glm::length(scene.eye_mm - scene.orb.centre_mm);
+    n.parameters = e.record.parameters;
+    const std::vector<double> ring = fold_circles_mm(e);
+    for (const Fold &fold : scene.folds) n.jump_mm.push_back(fold_jump(scene, fold, ring));
+    return n;
+}
+
+double greatest_jump_mm(const FoldNumbers &numbers, const std::vector<std::size_t> &folds) {
+    double greatest = 0;
+    for (const std::size_t k : folds) {
+        if (!numbers.jump_mm[k]) return nan;
+        greatest = std::max(greatest, std::abs(*numbers.jump_mm[k]));
+    }
+    return greatest;
+}
+
+std::size_t most_broken_fold(const FoldNumbers &numbers, const std::vector<std::size_t> &folds) {
+    return *std::ranges::max_element(
+        folds, {}, [&](std::size_t k) { return numbers.jump_mm[k] ? std::abs(*numbers.jump_mm[k]) : -1; });
+}
+
+std::optional<double> first_root(const std::function<double(double)> &f, double low, double high, int steps,
+                                 bool by_factors) {
+    const auto at = [&](int k) {
+        const double share = static_cast<double>(k) / steps;
+        return by_factors ? low * std::pow(high / low, share) : low + (high - low) * share;
+    };
+    for (int k = 0; k < steps; ++k)
+        if (const auto root = root_between(f, std::min(at(k), at(k + 1)), std::max(at(k), at(k + 1)))) return root;
+    return std::nullopt;
+}
+
+std::optional<double> fold_flip(const ClaimContext &context, const FoldSearch &search) {
+    return first_root(
+        [&](double value) {
+            const FoldNumbers n = fold_numbers(context, joined(search.fixed, {assign(search.parameter, value)}));
+            return greatest_jump_mm(n, search.folds) - n.criterion_mm;
+        },
+        search.low, search.high, search.steps, search.by_factors);
+}
+
+std::vector<std::string> bracket_names(const std::string &stem) { return {stem + "-below", stem + "-above"}; }
+
+std::vector<Experiment> fold_brackets(const ClaimContext &context, const FoldSearch &search, const std::string &stem,
+                                      double flip) {
+    std::vector<Experiment> experiments;
+    for (const BracketSide &side : bracket_of(flip)) {
+        FoldPlan plan;
+        plan.name = fmt::format("{}-{}", stem, side.label);
+        plan.title = fmt::format("{} {} the flip at {:.4g}", search.parameter, side.label, flip);
+        plan.fixed = joined(search.fixed, {assign(search.parameter, side.value)});
+        if (const double own = std::stod(fold_numbers(context, plan.fixed).parameters.at("folds.width_deg"));
+            own > narrow_deg && own <= wide_deg)
+            plan.fixed = joined(plan.fixed, {assign("folds.width_deg", narrow_deg)});
+        const FoldNumbers n = fold_numbers(context, plan.fixed);
+        const std::size_t fold = most_broken_fold(n, search.folds);
+        plan.folds = {fold};
+        plan.rows = false;
+        plan.radius_px = bracket_radius_px;
+        plan.samples_per_pixel = 16;
+        const bool under = greatest_jump_mm(n, {fold}) < n.criterion_mm;
+        plan.conclusions = {{fmt::format("break of {} is {} what the eye resolves", name_of_fold(fold),
+                                         under ? "less than" : "more than"),
+                             {fold},
+                             under ? Relation::below : Relation::above,
+                             n.criterion_mm}};
+        experiments.push_back(fold_experiment(context, plan));
+    }
+    return experiments;
+}
+
+} // namespace threefold

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "verifier/claims/line_crossing.h"
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <glm/geometric.hpp>
+
+#include "scenes/catalogue/three_lines.h"
+#include "verifier/claims/flip.h"
+
+namespace threefold {
+
+namespace {
+
+constexpr double search_rad = 1.4; ///< to either side: on a circle a straight line is met once within a right angle
+constexpr int strips = 24;         ///< of a soft line's width, for its centre of darkness
+
+std::optional<Vec3> landing_of(const LinesView &view, const Ray &ray) {
+    if (impact_parameter(ray, view.orb.centre_mm) >= view.orb.optics.outer_mm)
+        return optics::landing_on_plane(ray, view.scale.origin_mm, view.scale.normal);
+    const auto out = optics::transmitted_ray(view.orb.optics, view.orb.centre_mm, ray);
+    if (!out) return std::nullopt;
+    return optics::landing_on_plane(*out, view.scale.origin_mm, view.scale.normal);
+}
+
+} // namespace
+
+double LinesView::plane_distance_mm(const Camera &camera) const {
+    return std::abs(glm::dot(scale.origin_mm - camera.eye_mm, scale.normal));
+}
+
+double distance_from(const LinesView &view, const SoftLine &line, Vec3 point_mm) {
+    const Vec3 from_middle = point_mm - view.scale.origin_mm;
+    if (line.bend_mm) {
+        const Vec3 from_bend = from_middle - *line.bend_mm * view.along, onwards(1, 0, 0);
+        if (glm::dot(from_bend, view.along + onwards) > 0) return from_bend.y;
+    }
+    return glm::dot(from_middle, view.scale.across) - line.apart_mm;
+}
+
+std::optional<double> azimuth_of(const LinesView &view, const Camera &camera, const SoftLine &line, double impact_mm,
+                                 double off_centre_mm) {
+    return root_between(
+        [&](double azimuth) {
+            const auto ray = ray_past(camera, view.orb.centre_mm, impact_mm, azimuth);
+            const auto landing = ray ? landing_of(view, *ray) : std::nullopt;
+            if (!landing) return std::numeric_limits<double>::quiet_NaN();
+            return distance_from(view, line, *landing) - off_centre_mm;
+        },
+        view.circles.azimuth_rad - search_rad, view.circles.azimuth_rad + search_rad);
+}
+
+std::optional<double> predicted_place(const LinesView &view, const Camera &camera, const SoftLine &line,
+                                      double impact_mm) {
+    std::array<double, strips + 1> places{};
+    const double reach = soft_reach * line.half_width_mm;
+    for (int k = 0; k <= strips; ++k) {
+        const auto azimuth = azimuth_of(view, camera, line, impact_mm, reach * (2.0 * k / strips - 1));
+        if (!azimuth) return std::nullopt;
+        places[static_cast<std::size_t>(k)] =
+            straight_place(view.scale, *ray_past(camera, view.orb.centre_mm, impact_mm, *azimuth));
+    }
+    double sum = 0, first_moment = 0;
+    for (int k = 0; k < strips; ++k) {
+        const double from = places[static_cast<std::size_t>(k)], to = places[static_cast<std::size_t>(k) + 1];
+        const double weight = (to - from) * soft_darkness(reach * ((2.0 * k + 1) / strips - 1), line.half_width_mm);
+        sum += weight;
+        first_moment += weight * (from + to) / 2;
+    }
+    return first_moment / sum;
+}
+
+double predicted_jump(const LinesView &view, const Camera &camera, const SoftLine &line) {
+    const auto inside = predicted_place(view, camera, line, view.circles.inside_mm),
+               outside = predicted_place(view, camera, line, view.circles.outside_mm);
+    return inside && outside ? *inside - *outside : std::numeric_limits<double>::quiet_NaN();
+}
+
+} // namespace threefold

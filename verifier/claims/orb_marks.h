@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// Marks of the report about an orb: circles of equal impact parameter, and where a point in space is seen.
+#pragma once
+
+#include <string>
+
+#include "scenes/camera.h"
+#include "verifier/agreement/result.h"
+#include "verifier/claims/prediction.h"
+
+namespace threefold {
+
+/// Image position (in the crop, when there is one) of a point in front of a perspective camera.
+Vec2 image_of(const Camera &camera, Vec3 point_mm);
+
+/// The circle in which rays of this impact parameter are seen; for an eye that looks at the orb's centre.
+Mark impact_circle(const Camera &camera, const OrbInScene &orb, double impact_mm, Mark::Meaning meaning,
+                   std::string label);
+
+} // namespace threefold
