@@ -144,6 +144,18 @@ TEST(Tiles, MayDifferInAFewWhenASmallerShareIsAskedFor) {
     EXPECT_EQ(compare_tiles(noisy(1, 0.01), noisy(2, 0.01, 0.02), 8, 0.005, 0.95).verdict, Verdict::fails);
 }
 
+TEST(Tiles, OfPairedReplicatesForgetWhatBothHaveInCommon) {
+    const std::vector<Image> common = noisy(1, 0.3);
+    std::vector<Image> a = noisy(2, 0.01), b = noisy(3, 0.01);
+    for (std::size_t k = 0; k < common.size(); ++k)
+        for (std::size_t i = 0; i < common[k].pixels.size(); ++i) {
+            a[k].pixels[i] += common[k].pixels[i];
+            b[k].pixels[i] += common[k].pixels[i];
+        }
+    EXPECT_EQ(compare_tiles(a, b, 8, 0.005).verdict, Verdict::undecided);
+    EXPECT_EQ(compare_tiles(a, b, 8, 0.005, 1, true).verdict, Verdict::holds);
+}
+
 TEST(Tiles, AreUndecidedInTooMuchNoiseAndSayWhatWouldDecide) {
     const TileComparison t = compare_tiles(noisy(1, 0.3), noisy(2, 0.3), 8, 0.005);
     EXPECT_EQ(t.verdict, Verdict::undecided);

@@ -76,14 +76,19 @@ double mean_radiance(const Image &image) {
 } // namespace
 
 TileComparison compare_tiles(const std::vector<Image> &a, const std::vector<Image> &b, int tile_px, double tolerance,
-                             double needed_share) {
+                             double needed_share, bool paired) {
     std::vector<Image> tiles_a, tiles_b;
     for (const Image &image : a) tiles_a.push_back(tile_means(image, tile_px));
     for (const Image &image : b) tiles_b.push_back(tile_means(image, tile_px));
     TileComparison c =
         judge_tiles(tiles_a.front().width, tiles_a.front().height, tile_px, tolerance, needed_share,
                     [&](std::size_t tile, int channel) {
-                        return difference(of_channel(tiles_a, tile, channel), of_channel(tiles_b, tile, channel));
+                        if (!paired)
+                            return difference(of_channel(tiles_a, tile, channel), of_channel(tiles_b, tile, channel));
+                        std::vector<double> differences;
+                        for (std::size_t k = 0; k < std::min(tiles_a.size(), tiles_b.size()); ++k)
+                            differences.push_back(tiles_a[k].pixels[tile][channel] - tiles_b[k].pixels[tile][channel]);
+                        return estimate(differences);
                     });
     c.mean_radiance = (mean_radiance(mean(a)) + mean_radiance(mean(b))) / 2;
     return c;

@@ -15,8 +15,8 @@ Claim claim_salvator() {
         const Border border{"robe", identity_colour("robe"), [](const Camera &camera, double) {
                                 return 0.5 * camera.width_px * (1 + figure::relief_low.x);
                             }};
-        std::vector<Experiment> all{context.quick ? whole_picture(context, "salvator", 88, 130)
-                                                  : whole_picture(context, "salvator", 176, 259)};
+        std::vector<Experiment> all{context.quick ? whole_picture(context, "salvator", 88, 130, 5)
+                                                  : whole_picture(context, "salvator", 176, 259, 5)};
         if (all.front().record.parameters.at("robe.mesh").empty())
             all.push_back(border_experiment(context, "salvator", 176, 259, border));
         return all;

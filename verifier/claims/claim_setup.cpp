@@ -32,8 +32,8 @@ Claim claim_setup() {
     claim.statement =
         "The set-up seen from aside, relief, hand, orb and camera, is the same picture in every renderer.";
     claim.experiments = [](const ClaimContext &context) {
-        std::vector<Experiment> all{context.quick ? whole_picture(context, "setup", 128, 64)
-                                                  : whole_picture(context, "setup", 256, 128)};
+        std::vector<Experiment> all{context.quick ? whole_picture(context, "setup", 128, 64, 8)
+                                                  : whole_picture(context, "setup", 256, 128, 8)};
         const Quad ground = card_of(all.front().scene);
         all.push_back(
             border_experiment(context, "setup", 256, 128,

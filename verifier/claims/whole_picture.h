@@ -8,10 +8,11 @@
 namespace threefold {
 
 /// The picture, to be compared tile by tile in 99 % of its tiles.
-Experiment whole_picture(const ClaimContext &context, const std::string &scene, int width_px, int height_px);
+Experiment whole_picture(const ClaimContext &context, const std::string &scene, int width_px, int height_px,
+                         int replicates);
 
 /// A border that runs up and down the picture: it is found as where the colour `inside` begins, counted from the left
-/// edge of the picture in pixels, mean over the rows [top_px, bottom_px).
+/// edge of the picture in pixels, mean over some rows; only what lies about it is rendered.
 struct Border {
     std::string object;
     Rgb inside;
