@@ -185,9 +185,18 @@ void draw_highlights(View &v) {
     };
 }
 
+/// On the orb, from the painted point to the centroid of the front highlight.
+double distance_from_spot_mm(const View &v, const Image &image, const Camera &camera) {
+    const Vec2 at = highlight(image, v.front_px, v.inner_px).centre_px;
+    return glm::length(on_surface(v.spot.orb, camera_ray(camera, at)) - v.painted_mm);
+}
+
 Experiment spot_experiment(const ClaimContext &context, int number) {
     View v = look_at(context, fmt::format("spot-{}", number),
                      fmt::format("highlights of the front and of the inner surface at spot {}", number), number, {});
+    // The conclusion itself: a source out of its mirror direction makes it fail.
+    const std::string on_spot = fmt::format("spot {}: distance of the front highlight from the painted spot", number);
+    const double least = v.spot.parameters.number("criterion.spot_mm");
     const Names names = names_of(number);
     const std::vector<Reading> exact = read(v, names, exact_picture(v));
     v.experiment.predict = [=](const Accuracy &a) {
@@ -203,9 +212,14 @@ Experiment spot_experiment(const ClaimContext &context, int number) {
                                    : BudgetItem{"resolution", 0.25 * v.pixel_mm, "a quarter of a pixel"});
             rows.push_back({r.quantity, light ? "px" : "mm", Relation::equal, r.value, budget});
         }
+        rows.push_back({on_spot, "mm", Relation::below, least, {}});
         return rows;
     };
-    v.experiment.measure = [=](const Image &image, const Camera &) { return read(v, names, image); };
+    v.experiment.measure = [=](const Image &image, const Camera &camera) {
+        std::vector<Reading> readings = read(v, names, image);
+        readings.push_back({on_spot, distance_from_spot_mm(v, image, camera)});
+        return readings;
+    };
     draw_highlights(v);
     return v.experiment;
 }
@@ -245,8 +259,7 @@ Experiment flip_experiment(const ClaimContext &context, const BracketSide &side,
                                       {}}};
     };
     v.experiment.measure = [v](const Image &image, const Camera &camera) {
-        const Vec2 at = highlight(image, v.front_px, v.inner_px).centre_px;
-        const double distance = glm::length(on_surface(v.spot.orb, camera_ray(camera, at)) - v.painted_mm);
+        const double distance = distance_from_spot_mm(v, image, camera);
         return std::vector<Reading>{{"distance of the front highlight from the painted spot", distance}};
     };
     draw_highlights(v);
@@ -274,7 +287,8 @@ Claim claim_white_spots() {
     claim.summary = [](const ClaimContext &, Verdict verdict) -> std::string {
         switch (verdict) {
         case Verdict::holds:
-            return "Small sources in the mirror directions show their highlights at the three specks, and a hollow glass "
+            return "Small sources in the mirror directions show their highlights at the three specks, and a hollow "
+                   "glass "
                    "orb doubles each of them: its inner surface shows a second one just beside it.";
         case Verdict::fails:
             return "Some renderer, or exact optics, puts a highlight elsewhere or gives it another brightness.";
