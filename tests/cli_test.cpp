@@ -12,6 +12,7 @@
 
 #include "exporter/files.h"
 #include "exporter/image/image_io.h"
+#include "scenes/catalogue/catalogue.h"
 #include "tests/temporary_folder.h"
 
 namespace threefold {
@@ -150,7 +151,7 @@ TEST(Cli, HelpTeachesAndSucceeds) {
 TEST(Cli, ListAndShowNameEverything) {
     const tests::TemporaryFolder folder;
     const auto list = nlohmann::json::parse(run(folder, "list --json").out);
-    EXPECT_EQ(list.at("scenes").size(), 4u);
+    EXPECT_EQ(list.at("scenes").size(), built_in_scenes().size());
     const Answer show = run(folder, "show hollow");
     EXPECT_THAT(show.out, HasSubstr("orb.wall_mm"));
     EXPECT_THAT(show.out, HasSubstr("1.36"));

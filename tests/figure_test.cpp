@@ -10,11 +10,11 @@
 #include "scenes/catalogue/catalogue.h"
 #include "scenes/catalogue/composition.h"
 #include "scenes/error.h"
-#include "scenes/figure/contact.h"
 #include "scenes/figure/film_camera.h"
 #include "scenes/figure/hand.h"
 #include "scenes/figure/light.h"
 #include "scenes/figure/relief.h"
+#include "scenes/geometry.h"
 #include "scenes/validate.h"
 
 namespace threefold {

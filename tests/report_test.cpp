@@ -67,7 +67,8 @@ RunResult example() {
     c.experiments = {{"hollow", "Hollow orb", "orb", {{"orb.wall_mm", "2.6"}}, "c0ffee"}};
     c.rows = {row("ring", "tracer", "", Verdict::holds), row("ring", "povray", "", Verdict::fails),
               row("ring", "povray", "tracer", Verdict::undecided)};
-    c.tiles = {{"hollow", "povray", "tracer", 8, 20, 10, .5, .005, {}, -.004, 3, 5, 199, 0, 1, Verdict::undecided, 41}};
+    c.tiles = {
+        {"hollow", "povray", "tracer", 8, 20, 10, .5, .005, {}, -.004, 3, 5, 199, 0, 1, 1, Verdict::undecided, 41}};
     c.pictures = {{ReportPicture::Kind::render, "hollow", "POV-Ray", "\x89PNG\r\n\x1a\nnot a whole picture"}};
     r.claims = {c};
     RenderRecord render;

@@ -70,8 +70,9 @@ Exit command_render(const Shop &shop, const RenderRequest &request) {
         throw Error(Exit::usage, fmt::format("the picture's name must end in .exr, .tif (64-bit) or .png, not '{}'",
                                              output.string()));
     if (request.samples_per_pixel < 1) throw Error(Exit::bad_data, "--spp must be at least 1");
-    if (!(request.cut_weight >= 1e-12 && request.cut_weight <= 0.5))
-        throw Error(Exit::bad_data, fmt::format("--cut must lie in [1e-12, 0.5], not {}", request.cut_weight));
+    const double cut_weight = request.cut_weight.value_or(request.with == "tracer" ? 1e-6 : 1e-5);
+    if (!(cut_weight >= 1e-12 && cut_weight <= 0.5))
+        throw Error(Exit::bad_data, fmt::format("--cut must lie in [1e-12, 0.5], not {}", cut_weight));
     const std::chrono::milliseconds time_limit = to_time_limit(request.time_limit_s);
     const TracerSettings tracer = tracer_settings(request.precision, request.transport);
     const Witness witness = find_witnesses({request.with}).front();
@@ -81,7 +82,7 @@ Exit command_render(const Shop &shop, const RenderRequest &request) {
     job.sampling = request.pixel_centres ? Sampling::pixel_centres : Sampling::box;
     job.samples_per_pixel = request.samples_per_pixel;
     job.replicates = {{request.seed, {}}};
-    job.cut_weight = request.cut_weight;
+    job.cut_weight = cut_weight;
     job.threads = shop.threads;
 
     const TemporaryFolder temporary;

@@ -61,9 +61,9 @@ struct RenderRequest {
     int samples_per_pixel = 16;
     std::uint64_t seed = 1;
     bool pixel_centres = false;
-    double cut_weight = 1e-6;
+    std::optional<double> cut_weight; ///< empty: 1e-6 by our tracer, which merges branches, 1e-5 by the others
     std::string precision = "double", transport = "tree";
-    double time_limit_s = 600;
+    double time_limit_s = 3600;
 };
 Exit command_render(const Shop &shop, const RenderRequest &request);
 

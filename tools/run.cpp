@@ -150,8 +150,9 @@ int run(int argc, char **argv, const std::vector<SceneRecipe> &scenes, const std
     render.add_option("--spp", render_request.samples_per_pixel, "Samples per pixel")->capture_default_str();
     render.add_option("--seed", render_request.seed, "Seed")->capture_default_str();
     render.add_flag("--pixel-centres", render_request.pixel_centres, "One ray through each pixel's centre, no filter");
-    render.add_option("--cut", render_request.cut_weight, "Weight at which a ray tree may be cut")
-        ->capture_default_str()
+    render
+        .add_option("--cut", render_request.cut_weight,
+                    "Weight at which a ray tree may be cut (1e-6; 1e-5 where branches are not merged: POV-Ray)")
         ->check(CLI::Range(1e-12, 0.5));
     render.add_option("--precision", render_request.precision, "Tracer: float or double")->capture_default_str();
     render.add_option("--transport", render_request.transport, "Tracer: tree (all branches) or roulette")

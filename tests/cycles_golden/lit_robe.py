@@ -6,8 +6,8 @@ SCENE = json.loads(r'''{
  "sampling": {"filter":"BOX","samples":16,"window":true},
  "environment": [0.0,0.0,0.0],
  "lights": [
-  {"towards":[-0.3333333333333333,-0.6666666666666666,0.6666666666666666],"strength":4.0,"colour":[1.0,0.5,0.25]},
-  {"towards":[0.0,-1.0,0.0],"strength":0.0,"colour":[0.0,0.0,0.0]}],
+  {"towards":[-0.3333333333333333,-0.6666666666666666,0.6666666666666666],"strength":2.0,"colour":[1.0,0.5,0.25]},
+  {"towards":[-0.3333333333333333,-0.6666666666666666,0.6666666666666666],"strength":2.0,"colour":[1.0,0.5,0.25]}],
  "objects": [
   {"kind":"glass","name":"ball","centre":[0.0,0.0,0.0],"radii":[1.0],"sphere":{"file":"icosphere_4.bin","vertices":2562,"triangles":5120,"uv":false},"scale":1.000569265514032,"index":1.6,"transmittance":0.89,"antireflective":false,"shadow":{"rule":"constant","transmittance":0.64}},
   {"kind":"quad","name":"robe","corners":[[-2.073529411764706,3.7794117647058822,-2.088235294117647],[1.9264705882352942,3.7794117647058822,-2.088235294117647],[1.9264705882352942,3.7794117647058822,1.911764705882353],[-2.073529411764706,3.7794117647058822,1.911764705882353]],"surface":{"kind":"diffuse","reflectance":"texture_1.png"}},

@@ -243,7 +243,8 @@ private:
             if (std::ranges::any_of(planned.experiments, [&](const Experiment &o) { return o.partner == e.name; }))
                 heard[e.name] = std::move(testimonies);
         }
-        result.verdict = complete ? Verdict::holds : Verdict::undecided;
+        const bool compared = !result.rows.empty() || !result.tiles.empty(); // one picture alone agrees with nothing
+        result.verdict = complete && compared ? Verdict::holds : Verdict::undecided;
         const bool calibrating = result.name == calibration_name;
         const auto counts = [&](const std::string &witness, const std::string &versus) {
             for (const WitnessRecord &w : result_.witnesses)
@@ -301,8 +302,8 @@ private:
             const auto other = std::ranges::find(of_partner, t.witness, &Testimony::witness);
             if (e.measure_pair && other != of_partner.end())
                 for (std::size_t k = 0; k < replicates.size(); ++k)
-                    for (const Reading &r : e.measure_pair(t.rendered.images[k], other->rendered.images[k],
-                                                           camera_of(e, replicates[k])))
+                    for (const Reading &r :
+                         e.measure_pair(t.rendered.images[k], other->rendered.images[k], camera_of(e, replicates[k])))
                         readings[r.quantity].push_back(r.value);
             if (!e.predict) continue;
             for (const Expected &expected : e.predict(t.rendered.record.accuracy)) {
