@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,16 @@ struct Replicate {
     Vec2 film_offset_px{0, 0}; ///< added to the camera's own; every renderer gets the same one
 };
 
+/// A deliberate defect that no scene can say, for the power study: none in an honest job. A renderer that cannot be
+/// made to err in this way refuses the job.
+struct Slip {
+    bool inner_normal_flipped = false;  ///< crossing the inner surface of a shell refracts as entering its glass does
+    std::optional<int> most_interfaces; ///< a path through an orb ends after it met so many of its surfaces
+    double inner_tint_forgotten = 0;    ///< the inner surface's transmittance is that to the power 1 minus this
+
+    bool operator==(const Slip &) const = default;
+};
+
 struct RenderJob {
     Scene scene;
     Sampling sampling = Sampling::box;
@@ -27,6 +38,7 @@ struct RenderJob {
     double surface_tolerance_mm = 1e-3; ///< greatest distance of a tessellated glass surface from the true one
     double cut_weight = 1e-6;           ///< a branch of the ray tree may be dropped below this weight, never above
     int threads = 0;                    ///< 0: all cores
+    Slip slip{};
 };
 
 /// How far a picture can be from the exact one apart from sampling noise: stated before rendering, itemised, and in

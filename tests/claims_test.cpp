@@ -2,6 +2,8 @@
 // Every claim with our tracer alone: it holds, and its mutant makes it fail.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "exporter/temporary_folder.h"
 #include "scenes/catalogue/catalogue.h"
 #include "verifier/check/check.h"
@@ -62,9 +64,12 @@ TEST(Check, EveryFaultIsAnsweredByFails) {
     std::vector<std::string> names;
     for (const Claim &c : built_in_claims()) names.push_back(c.name);
     for (const FaultEntry &fault : faults()) {
-        CheckRequest r = request(folder.path(), names);
-        r.injected["tracer"] = fault.fault;
-        EXPECT_EQ(check(r).exit, Exit::fails) << fault.name;
+        const auto fails = [&](const std::string &name) {
+            CheckRequest r = request(folder.path(), {name});
+            r.injected["tracer"] = fault.fault;
+            return check(r).exit == Exit::fails;
+        };
+        EXPECT_TRUE(std::ranges::any_of(names, fails)) << fault.name; // the first that fails is enough
     }
 }
 

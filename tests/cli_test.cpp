@@ -121,7 +121,7 @@ TEST(Cli, AMeshThatIsNoneIsAnsweredInOneLineWhateverItsName) {
     const std::string quoted = "'" + hostile + "'";
     expect_one_clear_line(render(quoted), 74, "touch pwned");
     write_file_atomically(folder / hostile, "no mesh at all\n");
-    expect_one_clear_line(render(quoted), 65, "it has no triangles");
+    expect_one_clear_line(render(quoted), 65, "cannot read mesh");
     EXPECT_FALSE(fs::exists(folder / "pwned"));
     // Only what was put there: no picture was begun.
     EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 7);

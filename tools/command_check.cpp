@@ -38,8 +38,8 @@ std::vector<Witness> asked_witnesses(const std::vector<std::string> &names) {
 
 namespace {
 
-std::map<std::string, Fault> parse_injections(const std::vector<std::string> &injections) {
-    std::map<std::string, Fault> all;
+std::map<std::string, InjectedFault> parse_injections(const std::vector<std::string> &injections) {
+    std::map<std::string, InjectedFault> all;
     for (const std::string &text : injections) {
         const std::size_t colon = text.find(':');
         if (colon == std::string::npos)
@@ -47,7 +47,7 @@ std::map<std::string, Fault> parse_injections(const std::vector<std::string> &in
         const std::string name = text.substr(0, colon);
         if (std::ranges::count(witness_names(), name) == 0)
             throw Error(Exit::usage, unknown_name("renderer", name, witness_names()));
-        all[name] = parse_fault(text.substr(colon + 1));
+        all[name] = parse_injected_fault(text.substr(colon + 1));
     }
     return all;
 }

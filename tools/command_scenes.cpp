@@ -55,7 +55,7 @@ Exit command_list(const Shop &shop, bool json) {
     fmt::print("\nClaims (threefold check [CLAIM...]):\n");
     for (const Claim &c : shop.claims) fmt::print("  {:<16} {}\n", c.name, c.statement);
     fmt::print("\nFaults (threefold check --inject RENDERER:FAULT):\n");
-    for (const FaultEntry &f : faults()) fmt::print("  {:<16} {}\n", f.name, f.description);
+    for (const FaultEntry &f : faults()) fmt::print("  {:<20} {}\n", f.name, f.description);
     return Exit::holds;
 }
 

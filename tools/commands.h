@@ -82,6 +82,19 @@ struct CheckCommand {
 };
 Exit command_check(const Shop &shop, const CheckCommand &request);
 
+struct PowerCommand {
+    std::vector<std::string> with;    ///< the tracer always; empty: all that are installed, or in a quick run it alone
+    std::vector<std::string> without; ///< claims left out
+    std::vector<std::string> faults;  ///< empty: all
+    bool quick = false;
+    std::optional<int> runs; ///< without a fault; empty: 40, or 10 in a quick run
+    std::uint64_t seed = 1;
+    double time_limit_s = 600;
+    std::filesystem::path folder = "threefold-power";
+    std::optional<std::string> json, markdown;
+};
+Exit command_power(const Shop &shop, const PowerCommand &command);
+
 struct CompareRequest {
     std::vector<std::filesystem::path> pictures;
     int tile_px = 8;

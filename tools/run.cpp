@@ -55,6 +55,31 @@ void add_scene_options(CLI::App &command, SceneRequest &scene) {
     command.add_option("--size", scene.size, "Picture size in pixels, WIDTHxHEIGHT");
 }
 
+void add_power_options(CLI::App &command, PowerCommand &power) {
+    command.add_flag("--quick", power.quick, "Our tracer alone, and a coarser search for the smallest faults");
+    command
+        .add_option("--with", power.with,
+                    "Honest renderers beside the tracer, which gets the faults (default: all that are installed)")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    command.add_option("--without", power.without, "Claims to leave out, comma-separated")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    command.add_option("--faults", power.faults, "Only these, comma-separated (see: threefold list)")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    command.add_option("--runs", power.runs, "Runs without a fault, to count false alarms (default: 40; --quick: 10)")
+        ->check(CLI::Range(0, 100000));
+    command.add_option("--seed", power.seed, "Seed")->capture_default_str();
+    command.add_option("-o,--output", power.folder, "Folder of the study: power.json, power.md, honest pictures")
+        ->capture_default_str();
+    command.add_option("--json", power.json, "Also write the result as JSON here (-: stdout)");
+    command.add_option("--markdown", power.markdown, "Also write the table as a page of Markdown here (-: stdout)");
+    command.add_option("--timeout", power.time_limit_s, "Seconds until a renderer is given up")
+        ->capture_default_str()
+        ->check(CLI::PositiveNumber);
+}
+
 } // namespace
 
 int run(int argc, char **argv, const std::vector<SceneRecipe> &scenes, const std::vector<Claim> &claims) {
@@ -69,6 +94,7 @@ int run(int argc, char **argv, const std::vector<SceneRecipe> &scenes, const std
         "  threefold render hollow                  a first picture (hollow.exr, hollow.png)\n"
         "  threefold check --quick                  all claims in all renderers, with a report\n"
         "  threefold check solid-vs-hollow --set glass.index=1.1 -o water\n"
+        "  threefold power --quick                  which known faults the check catches, and how small\n"
         "  threefold optics --impact-mm 60          the closed forms for one ray\n\n"
         "Exit codes: 0 holds, 1 fails, 2 undecided, 64 usage, 65 bad input, 69 renderer missing, 70 a defect of ours,\n"
         "74 input or output failed, 124 a renderer ran out of time, 130 interrupted.");
@@ -161,7 +187,8 @@ int run(int argc, char **argv, const std::vector<SceneRecipe> &scenes, const std
     check
         .add_option(
             "--inject", check_command.injections,
-            "Give one renderer a faulty scene, RENDERER:FAULT, to see that a claim can fail (see: threefold list)")
+            "Put a fault into one renderer, RENDERER:FAULT or RENDERER:FAULT@SIZE, to see that a claim can fail "
+            "(see: threefold list)")
         ->allow_extra_args(false);
     check.add_option("--seed", check_command.seed, "Seed")->capture_default_str();
     check.add_option("--timeout", check_command.time_limit_s, "Seconds until a renderer is given up")
@@ -201,6 +228,12 @@ int run(int argc, char **argv, const std::vector<SceneRecipe> &scenes, const std
         ->capture_default_str()
         ->check(CLI::PositiveNumber);
     add_common(gallery);
+    PowerCommand power_command;
+    add_power_options(
+        *app.add_subcommand("power", "Known faults: which our check catches, how small, and which others' tests would"),
+        power_command);
+    CLI::App &power = *app.get_subcommand("power");
+    add_common(power);
 
     CompareRequest compare_request;
     CLI::App &compare = *app.add_subcommand("compare", "Two or three pictures, tile by tile");
@@ -250,6 +283,7 @@ int run(int argc, char **argv, const std::vector<SceneRecipe> &scenes, const std
         if (render) exit = command_render(shop, render_request);
         if (check) exit = command_check(shop, check_command);
         if (gallery) exit = command_gallery(shop, gallery_command);
+        if (power) exit = command_power(shop, power_command);
         if (compare) exit = command_compare(shop, compare_request);
         if (optics) exit = static_cast<Exit>(run_optics(optics_query, std::cout));
         std::cout.flush();

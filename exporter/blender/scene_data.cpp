@@ -209,6 +209,9 @@ CyclesScene describe_for_cycles(const RenderJob &job) {
     const Scene &scene = job.scene;
     const Frame frame = render_frame(scene);
     const Needs required = needs(scene);
+    if (job.slip != Slip{})
+        refuse_for_cycles("it cannot be made to follow light wrongly on purpose",
+                          "put this fault into another renderer");
     refuse_what_cannot_be_said(scene, required, frame);
     const double unit_mm = unit_of(scene, frame);
     const ToBlender to_blender(frame, unit_mm);

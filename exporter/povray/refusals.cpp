@@ -42,6 +42,8 @@ std::optional<Orb> orb_of(const Shape &shape) {
 void refuse_what_cannot_be_said(const RenderJob &job) {
     const Scene &scene = job.scene;
     if (job.replicates.empty()) refuse("no picture was asked for");
+    if (job.slip != Slip{})
+        refuse("it cannot be made to follow light wrongly on purpose", "put this fault into another renderer");
 
     const Object *diffuse = nullptr, *glass = nullptr;
     for (const Object &object : scene.objects) {

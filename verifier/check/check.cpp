@@ -166,6 +166,11 @@ private:
         return record.problem.empty();
     }
 
+    std::uint64_t seed_of(const Witness &w) const {
+        const auto own = request_.seeds.find(w.name);
+        return own != request_.seeds.end() ? own->second : request_.seed;
+    }
+
     std::optional<Testimony> ask(const Witness &w, const Experiment &e, Preset preset) {
         WitnessRecord &record = record_of(w);
         if (!record.present || broken_.contains(w.name)) return std::nullopt;
@@ -175,13 +180,15 @@ private:
         };
         tell(0);
         RenderJob job;
-        job.scene = scene_for(w, e);
+        job.scene = e.scene;
         job.sampling = e.sampling;
         job.samples_per_pixel = e.samples_per_pixel;
-        job.replicates = replicates_of(e, request_.seed);
+        job.replicates = replicates_of(e, seed_of(w));
         job.surface_tolerance_mm = e.surface_tolerance_mm;
         job.cut_weight = e.cut_weight;
         job.threads = request_.threads;
+        if (const auto fault = request_.injected.find(w.name); fault != request_.injected.end())
+            job = with_fault(std::move(job), fault->second);
         try {
             Testimony t{&w, render(w, job, {request_.folder, e.name, request_.tracer, request_.time_limit, tell})};
             t.rendered.record.experiment = e.name;
@@ -286,7 +293,7 @@ private:
         std::map<std::string, std::vector<std::pair<const Witness *, Row>>> between;
         for (const Testimony &t : testimonies) {
             std::map<std::string, std::vector<double>> readings;
-            const std::vector<Replicate> replicates = replicates_of(e, request_.seed);
+            const std::vector<Replicate> replicates = replicates_of(e, seed_of(*t.witness));
             if (e.measure)
                 for (std::size_t k = 0; k < replicates.size(); ++k)
                     for (const Reading &r : e.measure(t.rendered.images[k], camera_of(e, replicates[k])))

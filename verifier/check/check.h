@@ -24,11 +24,12 @@ struct CheckRequest {
     std::vector<Assignment> assignments;
     bool quick = false;
     std::uint64_t seed = 1;
+    std::map<std::string, std::uint64_t> seeds; ///< by witness name, in place of `seed`
     int threads = 0;
     TracerSettings tracer;
     std::chrono::milliseconds time_limit{std::chrono::minutes(10)};
     std::filesystem::path folder;
-    std::map<std::string, Fault> injected; ///< by witness name
+    std::map<std::string, InjectedFault> injected; ///< by witness name
     /// `share` of all that this witness has to do.
     std::function<void(const std::string &witness, double share, const std::string &now)> on_progress;
 };

@@ -216,7 +216,7 @@ Claim claim_soft_light() {
         }
         return flips;
     };
-    claim.mutant = Fault::radiance_slip;
+    claim.mutant = Fault::light_missing;
     return claim;
 }
 

@@ -25,8 +25,10 @@ std::vector<Claim> built_in_claims() {
         claim_setup(),
         claim_hand_contact(),
         claim_palm(),
-        claim_energy(),      claim_solid_vs_hollow(), claim_rim_reads_wall(), claim_tint(),
-        claim_calcite(),     claim_dark_layer(),      claim_white_spots(),
+        claim_tint(),
+        claim_calcite(),
+        claim_dark_layer(),
+        claim_white_spots(),
     };
 }
 

@@ -35,6 +35,10 @@ struct Orb {
     Real outer = 1, inner = 0; ///< inner = 0: solid
     Real index = 1, interface_transmittance = 1;
     Coating coating = Coating::fresnel;
+    // Deliberate defects (exporter/job.h) may change these three.
+    Real hollow_index = 1;         ///< relative to the air outside
+    Real inner_transmittance = 1;  ///< of the inner sphere; an honest orb has interface_transmittance there
+    int most_interfaces = 1 << 30; ///< a path ends after it met so many spheres
 };
 
 /// The point where a ray from outside meets the orb, relative to its centre, and the ray's closest approach.
@@ -133,6 +137,7 @@ Real trace_orb(const Orb<Real> &orb, const RayOf<Real> &ray, const Entry<Real> &
 
     // The plane of incidence.
     const Real n = orb.index, tau = orb.interface_transmittance;
+    const Real hollow_n = orb.hollow_index, inner_tau = orb.inner_transmittance;
     const Angle<Real> air{entry.impact / orb.outer, entry.depth / orb.outer};
     const Vector<Real> e1 = (entry.foot - entry.depth * ray.direction) / orb.outer;
     const Vector<Real> away = entry.impact > 0 ? entry.foot / entry.impact : Vector<Real>(0);
@@ -165,7 +170,7 @@ Real trace_orb(const Orb<Real> &orb, const RayOf<Real> &ray, const Entry<Real> &
         const Turn<Real> chord{2 * glass.sine * glass.sine - 1, 2 * glass.sine * glass.cosine}; // by pi - 2 theta
         Turn<Real> at;
         Real weight = entered;
-        while (weight > end.cut) {
+        for (int met = 2; weight > end.cut && met <= orb.most_interfaces; ++met) {
             if (weight < end.roulette) {
                 if (random() * end.roulette >= weight) return 0;
                 weight = end.roulette;
@@ -181,8 +186,9 @@ Real trace_orb(const Orb<Real> &orb, const RayOf<Real> &ray, const Entry<Real> &
     const Angle<Real> inside = Angle<Real>::of_sine(inner_sine);
     const Turn<Real> wall{inside.cosine * glass.cosine + inside.sine * glass.sine,
                           inside.sine * glass.cosine - inside.cosine * glass.sine};
-    const Angle<Real> hollow = Angle<Real>::of_sine(std::min<Real>(1, n * inside.sine));
-    const Split<Real> inner = split(n, inside, Real(1), n * inside.sine);
+    const Real hollow_sine = n * inside.sine / hollow_n;
+    const Angle<Real> hollow = Angle<Real>::of_sine(std::min<Real>(1, hollow_sine));
+    const Split<Real> inner = split(n, inside, hollow_n, hollow_sine);
     const Turn<Real> across{2 * hollow.sine * hollow.sine - 1, 2 * hollow.sine * hollow.cosine};
 
     // A generation is a list by wall crossings; all its states have met equally many spheres, so that equal wall
@@ -209,7 +215,7 @@ Real trace_orb(const Orb<Real> &orb, const RayOf<Real> &ray, const Entry<Real> &
         if (!(state.weight > 0)) state.at = at;
         state.weight += weight;
     };
-    while (live > end.cut && from < to) {
+    for (int met = 2; live > end.cut && from < to && met <= orb.most_interfaces; ++met) {
         next.grow(to + 1);
         for (std::size_t j = from; j <= to; ++j)
             next.inward[j].weight = next.outward[j].weight = next.hollow[j].weight = 0;
@@ -224,14 +230,14 @@ Real trace_orb(const Orb<Real> &orb, const RayOf<Real> &ray, const Entry<Real> &
             if (State &s = now.inward[j]; survives(s)) {
                 const Turn<Real> at = s.at * wall;
                 if (inner.reflected > 0) arrive(next.outward[j], at, s.weight * inner.reflected);
-                if (inner.transmitted > 0) arrive(next.hollow[j], at, s.weight * inner.transmitted * tau);
-                used(j, s.weight * (inner.reflected + inner.transmitted * tau));
+                if (inner.transmitted > 0) arrive(next.hollow[j], at, s.weight * inner.transmitted * inner_tau);
+                used(j, s.weight * (inner.reflected + inner.transmitted * inner_tau));
             }
             if (State &s = now.hollow[j]; survives(s)) {
                 const Turn<Real> at = s.at * across;
                 if (inner.reflected > 0) arrive(next.hollow[j], at, s.weight * inner.reflected);
-                arrive(next.outward[j], at, s.weight * inner.transmitted * tau);
-                used(j, s.weight * (inner.reflected + inner.transmitted * tau));
+                arrive(next.outward[j], at, s.weight * inner.transmitted * inner_tau);
+                used(j, s.weight * (inner.reflected + inner.transmitted * inner_tau));
             }
             if (State &s = now.outward[j]; survives(s)) {
                 const Turn<Real> at = s.at * wall;

@@ -35,12 +35,18 @@ constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 constexpr int greatest_depth = 64;
 
 template <class Real>
-std::vector<Orb<Real>> orbs_of(const Scene &scene) {
+std::vector<Orb<Real>> orbs_of(const Scene &scene, const Slip &slip) {
     std::vector<Orb<Real>> orbs;
-    const auto add = [&orbs](Vec3 centre, double outer, double inner, const Glass &glass) {
+    const auto add = [&](Vec3 centre, double outer, double inner, const Glass &glass) {
         orbs.push_back({Vector<Real>(centre), static_cast<Real>(outer), static_cast<Real>(inner),
                         static_cast<Real>(glass.index), static_cast<Real>(glass.interface_transmittance),
                         glass.coating});
+        Orb<Real> &orb = orbs.back();
+        orb.inner_transmittance = static_cast<Real>(
+            slip.inner_tint_forgotten > 0 ? std::pow(glass.interface_transmittance, 1 - slip.inner_tint_forgotten)
+                                          : glass.interface_transmittance);
+        if (slip.inner_normal_flipped) orb.hollow_index = orb.index * orb.index; // as if it entered glass once more
+        if (slip.most_interfaces) orb.most_interfaces = *slip.most_interfaces;
     };
     for (const Object &object : scene.objects)
         std::visit(overloaded{
@@ -57,8 +63,8 @@ std::vector<Orb<Real>> orbs_of(const Scene &scene) {
 template <class Real>
 class World {
 public:
-    World(const Scene &scene, const TreeEnd<Real> &end, int samples)
-        : scene_(scene), end_(end), orbs_(orbs_of<Real>(scene)), surfaces_(scene, std::is_same_v<Real, double>),
+    World(const Scene &scene, const Slip &slip, const TreeEnd<Real> &end, int samples)
+        : scene_(scene), end_(end), orbs_(orbs_of<Real>(scene, slip)), surfaces_(scene, std::is_same_v<Real, double>),
           lights_(scene, samples) {}
 
     /// What one thread and one sample carry along.
@@ -158,7 +164,7 @@ void render(const RenderJob &job, const TreeEnd<Real> &end, const std::function<
     const Camera &camera = job.scene.camera;
     const int width = camera.image_width_px(), height = camera.image_height_px();
     const int samples = job.sampling == Sampling::box ? job.samples_per_pixel : 1;
-    const World<Real> world(job.scene, end, samples);
+    const World<Real> world(job.scene, job.slip, end, samples);
     const double pixels = static_cast<double>(width) * height * static_cast<double>(job.replicates.size());
 
     std::atomic<double> done = 0;

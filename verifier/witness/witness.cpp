@@ -42,15 +42,17 @@ Witness witness_of(const Adapter &adapter) {
 std::string tracer_key(const RenderJob &job, const TracerSettings &settings) {
     Json replicates = Json::array();
     for (const Replicate &r : job.replicates) replicates.push_back({r.seed, r.film_offset_px.x, r.film_offset_px.y});
-    const Json key{{"tracer", tracer_revision},
-                   {"scene", scene_hash(job.scene)},
-                   {"sampling", static_cast<int>(job.sampling)},
-                   {"samples", job.samples_per_pixel},
-                   {"replicates", replicates},
-                   {"cut_weight", job.cut_weight},
-                   {"precision", static_cast<int>(settings.precision)},
-                   {"transport", static_cast<int>(settings.transport)},
-                   {"roulette_weight", settings.roulette_weight}};
+    const Json key{
+        {"tracer", tracer_revision},
+        {"scene", scene_hash(job.scene)},
+        {"sampling", static_cast<int>(job.sampling)},
+        {"samples", job.samples_per_pixel},
+        {"replicates", replicates},
+        {"cut_weight", job.cut_weight},
+        {"slip", {job.slip.inner_normal_flipped, job.slip.most_interfaces.value_or(0), job.slip.inner_tint_forgotten}},
+        {"precision", static_cast<int>(settings.precision)},
+        {"transport", static_cast<int>(settings.transport)},
+        {"roulette_weight", settings.roulette_weight}};
     return content_hash(key.dump());
 }
 
