@@ -122,7 +122,7 @@ Mesh make_robe(const Parameters &p) {
 Quad make_ground(const figure::Standpoint &view) {
     const double behind = 1.1; // of the relief's distance from the eye
     const double distance = behind * (view.eye_mm.z - view.plane_z_mm);
-    const double half = 1.25 * view.half_angle_tangent * distance;
+    const double half = 1.1 * view.half_angle_tangent * distance;
     return {{view.eye_mm.x, view.eye_mm.y, view.eye_mm.z - distance},
             {half, 0, 0},
             {0, half * figure::picture_height, 0},

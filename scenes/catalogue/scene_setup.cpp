@@ -13,7 +13,8 @@ Camera side_camera(const Parameters &p) {
     const figure::Standpoint view = standpoint(p);
     const double length = view.eye_mm.z - view.plane_z_mm;
     Camera camera;
-    camera.eye_mm = view.eye_mm + length * Vec3(-0.85, 0.10, 0.05);
+    // A wider picture (a nearer eye) is seen from further off.
+    camera.eye_mm = view.eye_mm + length * Vec3(-0.51 - 1.8 * view.half_angle_tangent, 0.10, 0.05);
     camera.target_mm = view.eye_mm + length * Vec3(0.0, -0.01, -0.35);
     camera.horizontal_fov_deg = 76;
     camera.width_px = static_cast<int>(p.number("image.width_px"));
