@@ -22,7 +22,7 @@ struct PowerRequest {
     std::vector<Witness> witnesses; ///< the faulty one among them
     std::string faulty = "tracer";
     std::vector<Fault> faults; ///< rows of the table
-    bool quick = false;        ///< a coarser search for the smallest fault, smaller pictures for the image judges
+    bool quick = false;        ///< a coarser search for the smallest fault, and no renders at flip points
     int runs = 40;             ///< without a fault
     std::uint64_t seed = 1;
     int threads = 0;

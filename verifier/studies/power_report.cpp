@@ -164,11 +164,11 @@ std::string to_markdown(const PowerResult &result) {
         "# What the check would have caught\n\n"
         "Made by `{}` (Threefold {}, {}, {:.0f} minutes, {} checks).\n\n{}\n\n"
         "Each fault is put into one renderer alone, {}. *Our check* is every claim ({}) in its quick form under the "
-        "preset `text`, with {}; it catches a fault when its verdict is `fails`. A claim that fails without a fault "
+        "preset `text`{}, with {}; it catches a fault when its verdict is `fails`. A claim that fails without a fault "
         "would count as catching none.\n\n",
         result.command, result.threefold_version, result.started.substr(0, 10), std::ceil(result.seconds / 60),
         result.evaluations, conclusion(result), result.faulty, fmt::join(result.claims, ", "),
-        fmt::join(result.witnesses, ", "));
+        result.quick ? " and without the renders on both sides of flip points" : "", fmt::join(result.witnesses, ", "));
     out += markdown(fault_table(result));
     out += fmt::format(
         "\n*Smallest that ours catches*: the size is brought down until no claim fails any more, to within a factor of "
