@@ -56,6 +56,7 @@ public:
         const auto start = Clock::now();
         result_.started = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
         result_.faulty = faulty_.title;
+        result_.precision = request_.tracer.precision == Precision::single_precision ? "float" : "double";
         result_.quick = request_.quick;
         result_.resolution = request_.quick ? 2 : 1.1;
         for (const Witness &w : request_.witnesses) result_.witnesses.push_back(w.name);
@@ -96,6 +97,7 @@ private:
         check_request.seed = request_.seed;
         check_request.seeds[faulty_.name] = seed;
         check_request.threads = request_.threads;
+        check_request.tracer = request_.tracer;
         check_request.time_limit = request_.time_limit;
         check_request.folder = request_.folder;
         if (fault) check_request.injected[faulty_.name] = *fault;

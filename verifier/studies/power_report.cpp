@@ -136,6 +136,7 @@ Json to_json(const PowerResult &result) {
             {"witnesses", result.witnesses},
             {"claims", result.claims},
             {"picture_scenes", result.picture_scenes},
+            {"precision", result.precision},
             {"quick", result.quick},
             {"resolution", result.resolution},
             {"verdict", to_string(result.verdict())},
@@ -174,10 +175,9 @@ std::string to_markdown(const PowerResult &result) {
         "\n*Smallest that ours catches*: the size is brought down until no claim fails any more, to within a factor of "
         "{:g}; once for faults that differ in their size alone. A percentage is of the index, of the wall, of one "
         "light's irradiance, of the inner surface's loss, or of the radiance; for `bounces-4` it is the greatest limit "
-        "on the glass surfaces of a path that is still caught. The faulty renderer computes in double precision, and "
-        "so \"\n        \"its tolerances are narrow: of a renderer in single precision the smallest fault is "
-        "larger.\n\n## Runs without a fault\n\n",
-        result.resolution);
+        "on the glass surfaces of a path that is still caught. The faulty renderer computes in {} precision; where the "
+        "search gave up, at a millionth of the listed size, it says at most.\n\n## Runs without a fault\n\n",
+        result.resolution, result.precision == "float" ? "single" : "double");
     out += markdown(alarm_table(result.false_alarms));
     out += fmt::format(
         "\nOnly the seed of {} changes from run to run.\n\n"
