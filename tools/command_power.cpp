@@ -42,6 +42,7 @@ Exit command_power(const Shop &shop, const PowerCommand &command) {
     request.seed = command.seed;
     request.threads = shop.threads;
     request.time_limit = to_time_limit(command.time_limit_s);
+    request.tracer = tracer_settings(command.precision, "tree");
     request.folder = command.folder;
 
     Progress progress({"power"}, shop.verbosity < 0);

@@ -90,6 +90,7 @@ struct PowerCommand {
     std::optional<int> runs; ///< without a fault; empty: 40, or 10 in a quick run
     std::uint64_t seed = 1;
     double time_limit_s = 600;
+    std::string precision = "float";
     std::filesystem::path folder = "threefold-power";
     std::optional<std::string> json, markdown;
 };

@@ -70,6 +70,10 @@ void add_power_options(CLI::App &command, PowerCommand &power) {
         ->allow_extra_args(false);
     command.add_option("--runs", power.runs, "Runs without a fault, to count false alarms (default: 40; --quick: 10)")
         ->check(CLI::Range(0, 100000));
+    command
+        .add_option("--precision", power.precision,
+                    "Tracer: float, as other renderers compute, or double, which sees far smaller faults")
+        ->capture_default_str();
     command.add_option("--seed", power.seed, "Seed")->capture_default_str();
     command.add_option("-o,--output", power.folder, "Folder of the study: power.json, power.md, honest pictures")
         ->capture_default_str();

@@ -2,6 +2,7 @@
 #include "verifier/studies/power.h"
 
 #include <algorithm>
+#include <cmath>
 #include <ctime>
 #include <set>
 
@@ -19,18 +20,21 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Without the pictures that are there to be looked at: nothing is judged on them.
-Claim without_views(const Claim &claim) {
-    Claim judged = claim;
-    judged.experiments = [all = claim.experiments](const ClaimContext &context) {
-        std::vector<Experiment> experiments = all(context);
-        std::erase_if(experiments, [](const Experiment &e) { return !e.predict && !e.tile_budget; });
-        return experiments;
-    };
-    judged.summary = nullptr; // read by nobody
-    judged.notes = nullptr;
-    judged.flips = nullptr;
-    return judged;
+/// Without what is there to be looked at, where nothing is judged; in a quick study also without the renders on both
+/// sides of flip points. They are made once: a claim's experiments follow from its context.
+Claim as_studied(const Claim &claim, const ClaimContext &context, bool without_flips) {
+    std::vector<Experiment> experiments = claim.experiments(context);
+    std::erase_if(experiments, [](const Experiment &e) { return !e.predict && !e.tile_budget; });
+    if (without_flips && claim.flips)
+        for (const FlipPoint &flip : claim.flips(context))
+            std::erase_if(experiments,
+                          [&](const Experiment &e) { return std::ranges::count(flip.bracket, e.name) > 0; });
+    Claim studied = claim;
+    studied.experiments = [experiments](const ClaimContext &) { return experiments; };
+    studied.summary = nullptr; // read by nobody
+    studied.notes = nullptr;
+    studied.flips = nullptr;
+    return studied;
 }
 
 std::vector<std::string> failing(const RunResult &result) {
@@ -43,15 +47,18 @@ std::vector<std::string> failing(const RunResult &result) {
 class Study {
 public:
     explicit Study(const PowerRequest &request) : request_(request), faulty_(find_faulty(request)), pictures_(request) {
-        for (const Claim &claim : request.claims) claims_.push_back(without_views(claim));
+        // The claims' small pictures, always: a fault must be caught on them.
+        const ClaimContext small{request.scenes, Preset::text, {}, true};
+        for (const Claim &claim : request.claims) claims_.push_back(as_studied(claim, small, request.quick));
     }
 
     PowerResult operator()() {
         const auto start = Clock::now();
         result_.started = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
         result_.faulty = faulty_.title;
+        result_.precision = request_.tracer.precision == Precision::single_precision ? "float" : "double";
         result_.quick = request_.quick;
-        result_.resolution = request_.quick ? 1.5 : 1.1;
+        result_.resolution = request_.quick ? 2 : 1.1;
         for (const Witness &w : request_.witnesses) result_.witnesses.push_back(w.name);
         for (const Claim &c : claims_) result_.claims.push_back(c.name);
         result_.picture_scenes = pictures_.names();
@@ -86,10 +93,11 @@ private:
         check_request.claims = claims;
         check_request.witnesses = request_.witnesses;
         check_request.scenes = request_.scenes;
-        check_request.quick = true; // the claims' small pictures: a fault must be caught on them
+        check_request.quick = true;
         check_request.seed = request_.seed;
         check_request.seeds[faulty_.name] = seed;
         check_request.threads = request_.threads;
+        check_request.tracer = request_.tracer;
         check_request.time_limit = request_.time_limit;
         check_request.folder = request_.folder;
         if (fault) check_request.injected[faulty_.name] = *fault;
@@ -125,20 +133,30 @@ private:
         return row;
     }
 
-    /// Claim by claim until one fails, those that caught the listed size first.
+    /// Claim by claim until one fails. A claim that missed a larger fault of this kind is not asked about a smaller
+    /// one.
     void search_smallest(PowerRow &row, const FaultEntry &entry) {
-        std::vector<Claim> order = claims_;
-        const auto sees = [&row](const Claim &claim) { return std::ranges::count(row.caught_by, claim.name) > 0; };
+        struct Asked {
+            const Claim *claim;
+            double missed = 0; ///< the greatest departure from honest that it did not see
+        };
+        std::vector<Asked> asked;
         // Where calibration fails the other claims have no vote; below that they may see what it does not.
-        if (row.caught_by != std::vector<std::string>{"calibration"})
-            std::erase_if(order, [&](const Claim &claim) { return !sees(claim); });
+        const bool all = row.caught_by == std::vector<std::string>{"calibration"};
+        for (const Claim &claim : claims_)
+            if (all || std::ranges::count(row.caught_by, claim.name) > 0) asked.push_back({&claim});
         const double start = done_;
         const auto is_caught = [&](double size) {
             const InjectedFault smaller(row.fault.fault, size);
             tell(to_string(smaller));
             done_ = std::min(done_ + 0.2, start + 1.9);
-            return std::ranges::any_of(order, [&](const Claim &claim) {
-                return !newly_failing(checked(with_calibration(claim), &smaller, request_.seed)).empty();
+            const double departure = std::abs(size - entry.honest);
+            return std::ranges::any_of(asked, [&](Asked &a) {
+                if (departure <= a.missed) return false;
+                const bool caught =
+                    !newly_failing(checked(with_calibration(*a.claim), &smaller, request_.seed)).empty();
+                if (!caught) a.missed = departure;
+                return caught;
             });
         };
         row.smallest = smallest_fault(entry, is_caught, result_.resolution);

@@ -22,10 +22,13 @@ struct PowerRequest {
     std::vector<Witness> witnesses; ///< the faulty one among them
     std::string faulty = "tracer";
     std::vector<Fault> faults; ///< rows of the table
-    bool quick = false;        ///< a coarser search for the smallest fault, smaller pictures for the image judges
+    bool quick = false;        ///< a coarser search for the smallest fault, and no renders at flip points
     int runs = 40;             ///< without a fault
     std::uint64_t seed = 1;
     int threads = 0;
+    /// In single precision, as other renderers compute: in double its tolerances are so narrow that no fault is too
+    /// small.
+    TracerSettings tracer{Precision::single_precision};
     std::chrono::milliseconds time_limit{std::chrono::minutes(10)};
     std::filesystem::path folder;
     std::function<void(double share, const std::string &now)> on_progress; ///< may be empty
@@ -58,6 +61,7 @@ struct PowerResult {
     static constexpr int schema_version = 1;
     std::string threefold_version, command, started;
     std::string faulty;                                        ///< title of the renderer with the fault
+    std::string precision;                                     ///< of the tracer: "float" or "double"
     std::vector<std::pair<std::string, std::string>> versions; ///< libraries and renderers
     std::vector<std::string> witnesses, claims, picture_scenes;
     bool quick = false;

@@ -44,7 +44,8 @@ Scene lit(Scene scene) {
 
 } // namespace
 
-PowerPictures::PowerPictures(const PowerRequest &request) : threads_(request.threads), seed_(request.seed) {
+PowerPictures::PowerPictures(const PowerRequest &request)
+    : threads_(request.threads), tracer_(request.tracer), seed_(request.seed) {
     const auto has = [&](std::string_view name) {
         return std::ranges::count(request.scenes, name, &SceneRecipe::name) > 0;
     };
@@ -80,7 +81,7 @@ void PowerPictures::make_references() {
         std::vector<std::uint64_t> seeds;
         for (int k = 0; k < reference_replicates; ++k)
             seeds.push_back(tracer::mix(seed_ + 0x5eed0000u + static_cast<std::uint64_t>(k)));
-        const std::vector<Image> replicates = trace(job_of(place.scene, seeds)).images;
+        const std::vector<Image> replicates = trace(job_of(place.scene, seeds), tracer_).images;
         place.mean = mean(replicates);
         place.variance = variance_of_a_sample(replicates, samples_per_pixel);
     }
@@ -91,7 +92,7 @@ std::vector<PictureJudgement> PowerPictures::judge(const InjectedFault *fault, s
     for (const Place &place : places_) {
         RenderJob job = job_of(place.scene, {seed});
         if (fault) job = with_fault(std::move(job), *fault);
-        const Image picture = trace(job).images.front();
+        const Image picture = trace(job, tracer_).images.front();
         all.push_back({place.name, judge_by_idiff(place.mean, picture), judge_by_rms(place.mean, picture),
                        judge_by_z_test(place.mean, place.variance, picture, samples_per_pixel)});
     }

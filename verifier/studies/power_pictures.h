@@ -29,6 +29,7 @@ private:
     RenderJob job_of(const Scene &scene, std::vector<std::uint64_t> seeds) const;
 
     int threads_;
+    TracerSettings tracer_;
     std::uint64_t seed_;
     std::vector<Place> places_;
 };

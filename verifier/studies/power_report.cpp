@@ -136,6 +136,7 @@ Json to_json(const PowerResult &result) {
             {"witnesses", result.witnesses},
             {"claims", result.claims},
             {"picture_scenes", result.picture_scenes},
+            {"precision", result.precision},
             {"quick", result.quick},
             {"resolution", result.resolution},
             {"verdict", to_string(result.verdict())},
@@ -164,20 +165,19 @@ std::string to_markdown(const PowerResult &result) {
         "# What the check would have caught\n\n"
         "Made by `{}` (Threefold {}, {}, {:.0f} minutes, {} checks).\n\n{}\n\n"
         "Each fault is put into one renderer alone, {}. *Our check* is every claim ({}) in its quick form under the "
-        "preset `text`, with {}; it catches a fault when its verdict is `fails`. A claim that fails without a fault "
+        "preset `text`{}, with {}; it catches a fault when its verdict is `fails`. A claim that fails without a fault "
         "would count as catching none.\n\n",
         result.command, result.threefold_version, result.started.substr(0, 10), std::ceil(result.seconds / 60),
         result.evaluations, conclusion(result), result.faulty, fmt::join(result.claims, ", "),
-        fmt::join(result.witnesses, ", "));
+        result.quick ? " and without the renders on both sides of flip points" : "", fmt::join(result.witnesses, ", "));
     out += markdown(fault_table(result));
     out += fmt::format(
         "\n*Smallest that ours catches*: the size is brought down until no claim fails any more, to within a factor of "
         "{:g}; once for faults that differ in their size alone. A percentage is of the index, of the wall, of one "
         "light's irradiance, of the inner surface's loss, or of the radiance; for `bounces-4` it is the greatest limit "
-        "on the glass surfaces of a path that is still caught. The faulty renderer computes in double precision, and "
-        "so \"\n        \"its tolerances are narrow: of a renderer in single precision the smallest fault is "
-        "larger.\n\n## Runs without a fault\n\n",
-        result.resolution);
+        "on the glass surfaces of a path that is still caught. The faulty renderer computes in {} precision; where the "
+        "search gave up, at a millionth of the listed size, it says at most.\n\n## Runs without a fault\n\n",
+        result.resolution, result.precision == "float" ? "single" : "double");
     out += markdown(alarm_table(result.false_alarms));
     out += fmt::format(
         "\nOnly the seed of {} changes from run to run.\n\n"
