@@ -112,7 +112,6 @@ std::vector<Mutant> mutants() {
         all.push_back({renderer, Fault::radiance_slip, {"calibration", "energy"}});
         all.push_back({renderer, Fault::light_missing, {"calibration", "soft-light"}});
     }
-    all.push_back({"povray", Fault::texture_mirrored, {"calibration", "setup"}});
     return all;
 }
 
