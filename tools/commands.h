@@ -91,7 +91,7 @@ struct PowerCommand {
     std::uint64_t seed = 1;
     double time_limit_s = 600;
     std::string precision = "float";
-    std::filesystem::path folder = "threefold-power";
+    std::filesystem::path folder = "threefold-report-power";
     std::optional<std::string> json, markdown;
 };
 Exit command_power(const Shop &shop, const PowerCommand &command);

@@ -29,9 +29,9 @@ std::string markdown(const Table &table) {
     return out;
 }
 
-/// The size as a person says it: "0.21 %", "0.04 px", "the power 1.01", "17".
+/// The size as a person says it: "0.21 %", "0.04 px", "power 1 + 0.01", "17".
 std::string size_text(const FaultEntry &entry, double size) {
-    if (entry.kind == "gamma") return fmt::format("power {:.4g}", size);
+    if (entry.kind == "gamma") return fmt::format("power 1 + {:.2g}", size - 1);
     if (entry.sizes == FaultEntry::Sizes::whole) return fmt::format("{:g}", size);
     if (!entry.unit.empty()) return fmt::format("{:.2g} {}", size, entry.unit);
     return fmt::format("{:.2g} %", 100 * size);
