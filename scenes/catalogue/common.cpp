@@ -15,8 +15,22 @@ namespace {
 
 constexpr double tiny_mm = 1e-9, huge_mm = 1e9;
 
-ParameterSpec number(std::string name, std::string description, double text, double published, double least,
-                     double greatest) {
+ParameterSpec word(std::string name, std::string description, std::vector<std::string> choices) {
+    ParameterSpec s{std::move(name), std::move(description)};
+    s.choices = std::move(choices);
+    return s;
+}
+
+ParameterSpec pixels(std::string name, std::string description) {
+    ParameterSpec s = number_parameter(std::move(name), std::move(description), 256, 256, 1, 1e6);
+    s.whole = true;
+    return s;
+}
+
+} // namespace
+
+ParameterSpec number_parameter(std::string name, std::string description, double text, double published, double least,
+                               double greatest) {
     ParameterSpec s{std::move(name), std::move(description)};
     s.text = text;
     s.published = published;
@@ -25,50 +39,45 @@ ParameterSpec number(std::string name, std::string description, double text, dou
     return s;
 }
 
-ParameterSpec word(std::string name, std::string description, std::vector<std::string> choices) {
-    ParameterSpec s{std::move(name), std::move(description)};
-    s.choices = std::move(choices);
-    return s;
+ParameterSpec number_parameter(std::string name, std::string description, double value, double least, double greatest) {
+    return number_parameter(std::move(name), std::move(description), value, value, least, greatest);
 }
-
-ParameterSpec pixels(std::string name, std::string description) {
-    ParameterSpec s = number(std::move(name), std::move(description), 256, 256, 1, 1e6);
-    s.whole = true;
-    return s;
-}
-
-} // namespace
 
 Specs orb_parameters() {
-    return {number("orb.radius_mm", "outer radius of the orb", 68, 67.98, tiny_mm, huge_mm),
-            number("orb.shift_mm", "orb moved sideways, to the right of the picture", 0, 0, -huge_mm, huge_mm)};
+    return {
+        number_parameter("orb.radius_mm", "outer radius of the orb", 68, 67.98, tiny_mm, huge_mm),
+        number_parameter("orb.shift_mm", "orb moved sideways, to the right of the picture", 0, 0, -huge_mm, huge_mm)};
 }
 
-Specs wall_parameters() { return {number("orb.wall_mm", "thickness of the glass wall", 1.3, 1.36, tiny_mm, huge_mm)}; }
+Specs wall_parameters() {
+    return {number_parameter("orb.wall_mm", "thickness of the glass wall", 1.3, 1.36, tiny_mm, huge_mm)};
+}
 
 Specs glass_parameters() {
-    return {number("glass.index", "index of the glass in air", 1.51714, 1.51714, 1, 10),
-            number("glass.interface_transmittance", "factor on light at each crossing of a glass surface", 1, 1, 0, 1),
+    return {number_parameter("glass.index", "index of the glass in air", 1.51714, 1.51714, 1, 10),
+            number_parameter("glass.interface_transmittance", "factor on light at each crossing of a glass surface", 1,
+                             1, 0, 1),
             word("glass.coating", "fresnel: reflects as glass does; antireflective: only total reflection is left",
                  {"fresnel", "antireflective"})};
 }
 
 Specs view_parameters() {
-    return {number("eye.distance_mm", "eye to orb centre", 900, 1200, tiny_mm, huge_mm),
-            pixels("image.width_px", "width of the picture"), pixels("image.height_px", "height of the picture"),
-            number("image.orb_share", "share of the picture's width that the orb fills", 0.8, 0.8, 1e-6, 100)};
+    return {
+        number_parameter("eye.distance_mm", "eye to orb centre", 900, 1200, tiny_mm, huge_mm),
+        pixels("image.width_px", "width of the picture"), pixels("image.height_px", "height of the picture"),
+        number_parameter("image.orb_share", "share of the picture's width that the orb fills", 0.8, 0.8, 1e-6, 100)};
 }
 
 Specs card_parameters() {
-    return {number("card.distance_mm", "orb centre to card", 250, 297.5, tiny_mm, huge_mm),
-            number("card.half_width_mm", "half the side of the square card", 300, 300, tiny_mm, huge_mm),
+    return {number_parameter("card.distance_mm", "orb centre to card", 250, 297.5, tiny_mm, huge_mm),
+            number_parameter("card.half_width_mm", "half the side of the square card", 300, 300, tiny_mm, huge_mm),
             word("card.surface",
                  "textured: the robe; coordinate: the probe that says where each ray lands, in the dark",
                  {"textured", "coordinate"})};
 }
 
 Specs environment_parameters(double radiance) {
-    return {number("environment.radiance", "radiance of the surroundings", radiance, radiance, 0, 1e6)};
+    return {number_parameter("environment.radiance", "radiance of the surroundings", radiance, radiance, 0, 1e6)};
 }
 
 Specs join(std::initializer_list<Specs> parts) {

@@ -16,6 +16,11 @@ Specs view_parameters();  ///< eye.distance_mm, image.width_px, image.height_px,
 Specs card_parameters();  ///< card.distance_mm, card.half_width_mm, card.surface
 Specs environment_parameters(double radiance);
 
+/// A number with its value under each preset and its range; or with one value for both.
+ParameterSpec number_parameter(std::string name, std::string description, double text, double published, double least,
+                               double greatest);
+ParameterSpec number_parameter(std::string name, std::string description, double value, double least, double greatest);
+
 Specs join(std::initializer_list<Specs> parts);
 
 Vec3 orb_centre(const Parameters &p);

@@ -41,20 +41,13 @@ std::array<FoldLine, folds> fold_lines(const Parameters &p) {
     return lines;
 }
 
-ParameterSpec number(std::string name, std::string description, double value, double least, double greatest) {
-    ParameterSpec s{std::move(name), std::move(description)};
-    s.text = s.published = value;
-    s.least = least;
-    s.greatest = greatest;
-    return s;
-}
-
 Specs robe_parameters() {
     Specs specs = card_parameters();
     std::erase_if(specs, [](const ParameterSpec &s) { return s.name == "card.surface"; });
     for (ParameterSpec &s : specs)
         if (s.name == "card.half_width_mm") s.text = s.published = 150;
-    specs.push_back(number("robe.shift_mm", "robe moved sideways, to the right of the picture", 0, -1e9, 1e9));
+    specs.push_back(
+        number_parameter("robe.shift_mm", "robe moved sideways, to the right of the picture", 0, -1e9, 1e9));
     ParameterSpec surface{"robe.surface", "flat: dark wedges on a bright sheet, for measuring; cloth: soft blue folds"};
     surface.choices = {"flat", "cloth"};
     specs.push_back(surface);
@@ -63,20 +56,21 @@ Specs robe_parameters() {
 
 Specs fold_parameters() {
     return {
-        number("folds.azimuth_deg", "direction of the middle of the four aimed folds, from image right towards up", 46,
-               -360, 360),
-        number("folds.step_deg", "angle from one fold to the next", 11, 0.01, 60),
-        number("folds.width_deg", "opening angle of each fold", 4.5, 0.001, 30),
-        number("folds.miss_mm",
-               "by which the leftmost fold's line passes the point behind the orb's centre, on the robe", 10, -1e9,
-               1e9),
+        number_parameter("folds.azimuth_deg",
+                         "direction of the middle of the four aimed folds, from image right towards up", 46, -360, 360),
+        number_parameter("folds.step_deg", "angle from one fold to the next", 11, 0.01, 60),
+        number_parameter("folds.width_deg", "opening angle of each fold", 4.5, 0.001, 30),
+        number_parameter("folds.miss_mm",
+                         "by which the leftmost fold's line passes the point behind the orb's centre, on the robe", 10,
+                         -1e9, 1e9),
     };
 }
 
 Specs criterion_parameters() {
-    return {number("criterion.acuity_arcmin", "the least angle at the eye that is noticed", 1, 1e-6, 1e4),
-            number("criterion.circle_share", "a fold's break is read on this circle, in shares of the orb's radius",
-                   0.95, 0.05, 0.995)};
+    return {number_parameter("criterion.acuity_arcmin", "the least angle at the eye that is noticed", 1, 1e-6, 1e4),
+            number_parameter("criterion.circle_share",
+                             "a fold's break is read on this circle, in shares of the orb's radius", 0.95, 0.05,
+                             0.995)};
 }
 
 Quad sheet(const Parameters &p, double behind_mm, Surface surface) {

@@ -9,20 +9,11 @@
 namespace threefold {
 
 SceneRecipe soft_light_scene() {
-    ParameterSpec gap{"board.distance_mm", "board to wall"};
-    gap.text = gap.published = 30;
-    gap.least = 1e-6;
-    gap.greatest = 1e6;
-    ParameterSpec eye{"eye.distance_mm", "eye to the place of the orb's centre"};
-    eye.text = 900;
-    eye.published = 1200;
-    eye.least = 1;
-    eye.greatest = 1e6;
-    ParameterSpec card{"card.distance_mm", "place of the orb's centre to the wall"};
-    card.text = 250;
-    card.published = 297.5;
-    card.least = 1;
-    card.greatest = 1e6;
+    const Specs stage{number_parameter("board.distance_mm", "board to wall", 30, 1e-6, 1e6),
+                      number_parameter("eye.distance_mm", "eye to the place of the orb's centre", 900, 1200, 1, 1e6),
+                      number_parameter("card.distance_mm", "place of the orb's centre to the wall", 250, 297.5, 1, 1e6),
+                      number_parameter("criterion.acuity_arcmin",
+                                       "least angle that the eye resolves, in minutes of arc", 1, 1e-3, 1e3)};
     ParameterSpec width{"image.width_px", "width of the picture"}, height{"image.height_px", "height of the picture"};
     width.text = width.published = 24;
     height.text = height.published = 192;
@@ -36,13 +27,9 @@ SceneRecipe soft_light_scene() {
     directions.greatest = 10'000;
     directions.least = 1;
     directions.whole = true;
-    ParameterSpec acuity{"criterion.acuity_arcmin", "least angle that the eye resolves, in minutes of arc"};
-    acuity.text = acuity.published = 1;
-    acuity.least = 1e-3;
-    acuity.greatest = 1e3;
     return {
         "soft-light", "a white wall in the study's light, and the soft shadow of a board's edge on it",
-        join({{gap, eye, card, acuity, width, height, directions}, environment_parameters(study_environment_radiance)}),
+        join({stage, {width, height, directions}, environment_parameters(study_environment_radiance)}),
         [](const Parameters &p) {
             const double distance = p.number("board.distance_mm"), wall_z = -p.number("card.distance_mm");
             // The window reaches from 0.8 to 2.2 of the board's distance under its edge: the cluster's shadows end

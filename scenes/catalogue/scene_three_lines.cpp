@@ -12,16 +12,6 @@ namespace threefold {
 
 namespace {
 
-ParameterSpec number(std::string name, std::string description, double text, double published, double least,
-                     double greatest) {
-    ParameterSpec s{std::move(name), std::move(description)};
-    s.text = text;
-    s.published = published;
-    s.least = least;
-    s.greatest = greatest;
-    return s;
-}
-
 ParameterSpec orb_kind() {
     ParameterSpec kind{"orb.kind", "hollow or solid"};
     kind.choices = {"hollow", "solid"};
@@ -51,7 +41,8 @@ Shape orb_of_kind(const Parameters &p) {
 }
 
 ParameterSpec field_of_view(double degrees) {
-    return number("image.horizontal_fov_deg", "field of view across the picture", degrees, degrees, 1e-3, 179);
+    return number_parameter("image.horizontal_fov_deg", "field of view across the picture", degrees, degrees, 1e-3,
+                            179);
 }
 
 constexpr double half_length_mm = 300, setup_half_length_mm = 600;
@@ -89,10 +80,11 @@ SceneRecipe three_lines_hollow_scene() {
 SceneRecipe three_lines_bent_scene() {
     const Specs bent{
         orb_kind(),
-        number("lines.bend_mm", "where the middle line bends, from the axis to the upper right", 72, 80, 1e-9, 1e9),
-        number("image.centre_mm", "the parallel view's centre, to the right of the axis and above it", 39, 39, -1e9,
-               1e9),
-        number("image.width_mm", "what the parallel view spans across the picture", 70, 70, 1e-9, 1e9)};
+        number_parameter("lines.bend_mm", "where the middle line bends, from the axis to the upper right", 72, 80, 1e-9,
+                         1e9),
+        number_parameter("image.centre_mm", "the parallel view's centre, to the right of the axis and above it", 39, 39,
+                         -1e9, 1e9),
+        number_parameter("image.width_mm", "what the parallel view spans across the picture", 70, 70, 1e-9, 1e9)};
     return {"three-lines-bent", "the middle one of the three lines bent outside the orb, in a parallel view",
             join({three_lines_orb_parameters(true), three_lines_parameters(half_length_mm),
                   three_lines_image_parameters(), bent}),
@@ -108,11 +100,12 @@ SceneRecipe three_lines_bent_scene() {
 }
 
 SceneRecipe three_lines_setup_scene() {
-    const Specs setup{
-        orb_kind(), field_of_view(24),
-        number("setup.turn_deg", "how far below the axis of eye and orb the picture is taken", 70, 70, -180, 180),
-        number("setup.camera_mm", "orb centre to the lens of the movie camera that stands for the eye", 108, 108, 1e-9,
-               1e9)};
+    const Specs setup{orb_kind(), field_of_view(24),
+                      number_parameter("setup.turn_deg", "how far below the axis of eye and orb the picture is taken",
+                                       70, 70, -180, 180),
+                      number_parameter("setup.camera_mm",
+                                       "orb centre to the lens of the movie camera that stands for the eye", 108, 108,
+                                       1e-9, 1e9)};
     return {"three-lines-setup", "lines, orb and a camera in the eye's place, seen from aside",
             join({setup_orb_parameters(), three_lines_parameters(setup_half_length_mm), three_lines_image_parameters(),
                   setup}),

@@ -22,24 +22,17 @@ namespace {
 constexpr double spots_cm[spot_count][3] = {
     {5.8765, 1.0341, 3.2574}, {6.6934, 0.8285, 0.8515}, {6.4676, -2.0442, 0.4523}};
 
-ParameterSpec number(std::string name, std::string description, double value, double least, double greatest) {
-    ParameterSpec s{std::move(name), std::move(description)};
-    s.text = s.published = value;
-    s.least = least;
-    s.greatest = greatest;
-    return s;
-}
-
 Specs source_parameters() {
     ParameterSpec which{"source.which", "all three sources, or the one for spot 1, 2 or 3 alone"};
     which.choices = {"all", "1", "2", "3"};
     return {which,
-            number("source.distance_mm", "spot on the orb to its source", 3000, 1e-9, 1e9),
-            number("source.half_width_mm", "half the side of a square source", 30, 1e-9, 1e9),
-            number("source.radiance", "radiance of a source", 1, 0, 1e6),
-            number("source.offset_deg", "source turned out of its mirror direction, away from the eye", 0, -80, 80),
-            number("criterion.spot_mm", "a highlight so far from the painted spot has left it: a claim's threshold", 1,
-                   0, 1e9)};
+            number_parameter("source.distance_mm", "spot on the orb to its source", 3000, 1e-9, 1e9),
+            number_parameter("source.half_width_mm", "half the side of a square source", 30, 1e-9, 1e9),
+            number_parameter("source.radiance", "radiance of a source", 1, 0, 1e6),
+            number_parameter("source.offset_deg", "source turned out of its mirror direction, away from the eye", 0,
+                             -80, 80),
+            number_parameter("criterion.spot_mm",
+                             "a highlight so far from the painted spot has left it: a claim's threshold", 1, 0, 1e9)};
 }
 
 } // namespace
