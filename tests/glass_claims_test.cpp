@@ -73,6 +73,16 @@ TEST(OrbMarks, APointIsSeenWhereItsRayGoes) {
     EXPECT_NEAR(seen.y, 71.5, 1e-9);
 }
 
+TEST(DoubleImage, OneLostRayAmongManyMovesTheMeanByTheLargestThatCounts) {
+    std::vector<DoubleLanding> landings;
+    for (int k = 0; k < 1000; ++k) landings.push_back({{1e-3 * k, 0, 0}, {0, 0, 0}, {0, 0, 0}});
+    const double before = double_image(landings).ordinary_mm;
+    landings.front().ordinary_mm.x = 1e6;
+    const double after = double_image(landings).ordinary_mm;
+    EXPECT_GT(after, before);
+    EXPECT_NEAR(after - before, 1e-3 * 0.995 * 0.995 / (2 * before), 1e-5);
+}
+
 TEST(DoubleImage, DistortionIsTheMiddlesAndSeparationTheImagesDistance) {
     const DoubleImage m = double_image({{{3, 0, 0}, {1, 0, 0}, {0, 0, 0}}, {{3, 0, 0}, {1, 0, 0}, {4, 0, 0}}});
     EXPECT_DOUBLE_EQ(m.distortion_mm, 2);

@@ -130,8 +130,8 @@ struct RunResult {
     std::vector<RenderRecord> renders;
     Verdict verdict = Verdict::undecided;
     std::string summary;
-    double seconds = 0, renderer_seconds = 0; ///< overhead is the difference
-    double tracer_seconds = 0;                ///< part of renderer_seconds that ran in this process
+    double seconds = 0, renderer_seconds = 0; ///< some renderer at work; overhead is the difference
+    double tracer_seconds = 0;                ///< of our own tracer, beside the others
 };
 
 } // namespace threefold

@@ -16,6 +16,7 @@
 #include "exporter/scene_json.h"
 #include "scenes/validate.h"
 #include "verifier/agreement/tiles.h"
+#include "verifier/check/hearing.h"
 #include "verifier/measure/radiance.h"
 #include "verifier/tracer/sampler.h"
 
@@ -171,12 +172,10 @@ private:
         return own != request_.seeds.end() ? own->second : request_.seed;
     }
 
-    std::optional<Testimony> ask(const Witness &w, const Experiment &e, Preset preset) {
-        WitnessRecord &record = record_of(w);
-        if (!record.present || broken_.contains(w.name)) return std::nullopt;
+    Question question_for(const Witness &w, const Experiment &e) {
         const double done = finished_[w.name]++;
-        const auto tell = [&](double share) {
-            if (request_.on_progress) request_.on_progress(w.name, (done + share) / experiments_, e.name);
+        const auto tell = [this, name = w.name, now = e.name, done](double share) {
+            if (request_.on_progress) request_.on_progress(name, (done + share) / experiments_, now);
         };
         tell(0);
         RenderJob job;
@@ -189,18 +188,43 @@ private:
         job.threads = request_.threads;
         if (const auto fault = request_.injected.find(w.name); fault != request_.injected.end())
             job = with_fault(std::move(job), fault->second);
-        try {
-            Testimony t{&w, render(w, job, {request_.folder, e.name, request_.tracer, request_.time_limit, tell})};
-            t.rendered.record.experiment = e.name;
-            t.rendered.record.preset = to_string(preset);
-            if (!t.rendered.record.from_cache) {
-                record.seconds += t.rendered.record.seconds;
-                result_.renderer_seconds += t.rendered.record.seconds;
-                if (!w.adapter) result_.tracer_seconds += t.rendered.record.seconds;
+        return {&w, std::move(job), {request_.folder, e.name, request_.tracer, request_.time_limit, tell}};
+    }
+
+    /// Of those who can speak; a witness that could not give this picture is left out.
+    std::vector<Testimony> testimonies_of(const Experiment &e, Preset preset) {
+        std::vector<Question> questions;
+        for (const Witness &w : request_.witnesses)
+            if (record_of(w).present && !broken_.contains(w.name)) questions.push_back(question_for(w, e));
+        std::vector<Testimony> heard;
+        const bool at_once = request_.threads != 1;
+        double longest = 0, all = 0; // seconds
+        for (Answer &answer : hear(std::move(questions), at_once)) {
+            if (answer.failure) {
+                note_failure(*answer.witness, e, answer.failure);
+                continue;
             }
-            result_.renders.push_back(t.rendered.record);
-            tell(1);
-            return t;
+            RenderRecord &record = answer.rendered->record;
+            record.experiment = e.name;
+            record.preset = to_string(preset);
+            if (!record.from_cache) {
+                record_of(*answer.witness).seconds += record.seconds;
+                longest = std::max(longest, record.seconds);
+                all += record.seconds;
+                if (!answer.witness->adapter) result_.tracer_seconds += record.seconds;
+            }
+            result_.renders.push_back(record);
+            if (request_.on_progress)
+                request_.on_progress(answer.witness->name, finished_[answer.witness->name] / experiments_, e.name);
+            heard.push_back({answer.witness, *std::move(answer.rendered)});
+        }
+        result_.renderer_seconds += at_once ? longest : all;
+        return heard;
+    }
+
+    void note_failure(const Witness &w, const Experiment &e, const std::exception_ptr &failure) {
+        try {
+            std::rethrow_exception(failure);
         } catch (const Error &error) {
             // The program itself failed: the others go on, and what they found is not lost.
             const bool of_renderer =
@@ -210,12 +234,11 @@ private:
             const std::string problem = fmt::format("{} gave no picture of {}: {}", w.title, e.name, error.what());
             if (error.code() == Exit::bad_data) { // what it refuses says nothing of other scenes
                 refusals_.push_back(problem);
-                return std::nullopt;
+                return;
             }
-            record.problem = problem;
+            record_of(w).problem = problem;
             broken_.insert(w.name);
             if (error.code() == Exit::timed_out) exit_ = Exit::timed_out;
-            return std::nullopt;
         }
     }
 
@@ -232,12 +255,10 @@ private:
                 for (const Witness &w : request_.witnesses) complete = inspect(w, e, result) && complete;
                 continue;
             }
-            std::vector<Testimony> testimonies;
-            for (const Witness &w : request_.witnesses) {
-                auto testimony = ask(w, e, planned.context.preset);
-                complete = complete && testimony && record_of(w).problem.empty();
-                if (testimony) testimonies.push_back(*std::move(testimony));
-            }
+            std::vector<Testimony> testimonies = testimonies_of(e, planned.context.preset);
+            for (const Witness &w : request_.witnesses)
+                complete = complete && record_of(w).problem.empty() &&
+                           std::ranges::count(testimonies, &w, &Testimony::witness) == 1;
             judge_numbers(e, testimonies, heard[e.partner], result);
             judge_pictures(e, testimonies, result);
             if (std::ranges::any_of(planned.experiments, [&](const Experiment &o) { return o.partner == e.name; }))

@@ -1,23 +1,37 @@
 // SPDX-License-Identifier: MIT
 #include "verifier/measure/double_image.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
 namespace threefold {
 
+namespace {
+
+double root_mean(std::vector<double> squares) {
+    std::ranges::sort(squares);
+    const auto left_out = static_cast<std::size_t>(left_out_share * static_cast<double>(squares.size()));
+    squares.resize(squares.size() - left_out);
+    return std::sqrt(std::accumulate(squares.begin(), squares.end(), 0.0) / static_cast<double>(squares.size()));
+}
+
+} // namespace
+
 DoubleImage double_image(const std::vector<DoubleLanding> &landings) {
-    double ordinary = 0, extraordinary = 0, middle = 0, apart = 0;
+    std::vector<double> ordinary, extraordinary, middle, apart;
     for (const DoubleLanding &l : landings) {
         const Vec3 o = l.ordinary_mm - l.straight_mm, e = l.extraordinary_mm - l.straight_mm;
-        ordinary += glm::dot(o, o);
-        extraordinary += glm::dot(e, e);
-        middle += glm::dot(o + e, o + e) / 4;
-        apart += glm::dot(o - e, o - e);
+        ordinary.push_back(glm::dot(o, o));
+        extraordinary.push_back(glm::dot(e, e));
+        middle.push_back(glm::dot(o + e, o + e) / 4);
+        apart.push_back(glm::dot(o - e, o - e));
     }
-    const auto n = static_cast<double>(landings.size());
-    return {std::sqrt(ordinary / n), std::sqrt(extraordinary / n), std::sqrt(middle / n), std::sqrt(apart / n)};
+    return {root_mean(std::move(ordinary)), root_mean(std::move(extraordinary)), root_mean(std::move(middle)),
+            root_mean(std::move(apart))};
 }
 
 } // namespace threefold
