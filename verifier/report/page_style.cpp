@@ -81,7 +81,7 @@ figcaption { font-size: .88rem; color: var(--quiet); padding-top: .3rem; }
 .experiment.pointed .picture::after { content: ""; position: absolute; inset: 0; pointer-events: none; mix-blend-mode: difference;
   background: linear-gradient(#fff, #fff) var(--x) 0 / 1px 100% no-repeat, linear-gradient(#fff, #fff) 0 var(--y) / 100% 1px no-repeat; opacity: .65; }
 
-.frame { position: relative; }
+.frame { position: relative; max-width: max(7rem, calc(34rem * var(--shape))); } /* a tall picture fits a screen */
 .marks { position: absolute; inset: 0; pointer-events: none; container-type: inline-size; }
 .marks svg { position: absolute; inset: 0; width: 100%; height: 100%; overflow: hidden; }
 .ink, .halo { fill: none; vector-effect: non-scaling-stroke; }
