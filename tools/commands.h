@@ -31,8 +31,12 @@ struct SceneRequest {
     std::string name;
     std::string preset = "text";
     std::vector<std::string> assignments;
-    std::string size; ///< "WxH", or empty
+    std::string size{}; ///< "WxH", or empty
+    std::string mitsuba{}; ///< a file to read the scene from, in place of `name`; or empty
 };
+
+/// Of the catalogue, or of the user's file.
+SceneRecipe recipe_of(const Shop &shop, const SceneRequest &request);
 
 Parameters parameters_of(const SceneRecipe &recipe, const SceneRequest &request);
 /// Built and validated.
