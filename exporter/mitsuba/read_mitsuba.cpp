@@ -219,7 +219,7 @@ Scene Reader::scene() {
             scene_.environment->dome_directions = said;
     } else if (scene_.lights.empty() && findings_.problems.empty()) {
         bool seen = false;
-        for (const Flat &flat : flats_) seen |= std::holds_alternative<Emissive>(flat.sides.front);
+        for (const Flat &flat : flats_) seen |= !std::holds_alternative<Diffuse>(flat.sides.front);
         if (!seen)
             findings_.problem(document_.tree.root,
                               "has no light, and a sun and sky that Mitsuba 0.5 then adds are not in the file: give it "

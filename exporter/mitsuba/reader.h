@@ -19,6 +19,7 @@ struct TwoSides {
     Surface front = Diffuse{Rgb(0.5)}, back = Diffuse{Rgb(0)};
     bool alike = false;
     std::optional<Grid> grid;
+    bool coordinates = false; ///< its picture is that of the coordinate card
 };
 
 struct GlassSurface {
@@ -43,7 +44,7 @@ public:
 
 private:
     std::string name_of(const Node &node) const;
-    std::shared_ptr<const Texture> bitmap(const Node &node, const std::string &shape);
+    std::shared_ptr<const Texture> bitmap(const Node &node, const std::string &shape, TwoSides &sides);
     bool is_clamped(const Node &node) const;
     Paint paint(const Node &node, const std::string &shape, TwoSides &sides);
     TwoSides surface(const Node &bsdf, const std::string &shape, int depth = 0);

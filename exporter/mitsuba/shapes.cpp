@@ -203,7 +203,7 @@ void Reader::put_surfaces_together() {
             continue;
         }
         if (const auto *d = std::get_if<Diffuse>(&shown)) reflects |= greatest_value(d->reflectance) != Rgb(0);
-        if (std::holds_alternative<Emissive>(shown)) {
+        if (!std::holds_alternative<Diffuse>(shown)) {
             emits = true;
             emitting = flat.node;
         }

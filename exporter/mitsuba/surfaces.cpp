@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "exporter/mitsuba/coordinate_corners.h"
 #include "exporter/mitsuba/reader.h"
 #include "exporter/text.h"
 #include "scenes/error.h"
@@ -11,7 +12,7 @@
 
 namespace threefold::mitsuba {
 
-std::shared_ptr<const Texture> Reader::bitmap(const Node &node, const std::string &shape) {
+std::shared_ptr<const Texture> Reader::bitmap(const Node &node, const std::string &shape, TwoSides &sides) {
     Properties p(node, document_);
     const std::string named = p.word("filename", "");
     const std::optional<double> gamma = p.number("gamma");
@@ -23,7 +24,9 @@ std::shared_ptr<const Texture> Reader::bitmap(const Node &node, const std::strin
         if (p.number(name).value_or(1) != 1) findings_.problem(node, fmt::format("{} other than 1", name));
     for (const char *name : {"uoffset", "voffset"})
         if (p.number(name).value_or(0) != 0) findings_.problem(node, fmt::format("{} other than 0", name));
-    if (p.transform("to_uv").matrix != glm::dmat4(1)) findings_.problem(node, "to_uv that moves the picture");
+    // Between the centres of two by two texels: how a coordinate card is said.
+    const glm::dmat4 window = glm::dmat4({0.5, 0, 0, 0}, {0, 0.5, 0, 0}, {0, 0, 1, 0}, {0.25, 0.25, 0, 1}),
+                     to_uv = p.transform("to_uv").matrix;
     p.leave_out({"cache", "max_anisotropy", "id", "format", "accel"}, "how the picture is kept");
     p.finish();
     if (filter == "nearest")
@@ -56,7 +59,12 @@ std::shared_ptr<const Texture> Reader::bitmap(const Node &node, const std::strin
     }
     if (gamma && *gamma < 0 && *gamma != -1) findings_.problem(node, "gamma must be positive, or -1 for sRGB");
     try {
-        return parameters_.files().texture(file, raw ? 1 : gamma && *gamma > 0 ? *gamma : 0);
+        const auto read = parameters_.files().texture(file, raw ? 1 : gamma && *gamma > 0 ? *gamma : 0);
+        if (to_uv == window && *read == coordinate_corners())
+            sides.coordinates = true;
+        else if (to_uv != glm::dmat4(1))
+            findings_.problem(node, "to_uv that moves the picture");
+        return read;
     } catch (const Error &error) {
         if (error.code() != Exit::bad_data && error.code() != Exit::input_output) throw;
         findings_.problem(node, error.what());
@@ -68,7 +76,7 @@ Paint Reader::paint(const Node &node, const std::string &shape, TwoSides &sides)
     if (node.tag != "texture") return to_colour(node, document_).value_or(Rgb(0));
     const std::string *type = node.attribute("type");
     if (type && *type == "bitmap") {
-        const auto texture = bitmap(node, shape);
+        const auto texture = bitmap(node, shape, sides);
         return texture ? Paint(texture) : Paint(Rgb(0));
     }
     if (type && *type == "gridtexture") {
@@ -103,6 +111,7 @@ TwoSides Reader::surface(const Node &bsdf, const std::string &shape, int depth) 
         if (!reflectance) reflectance = p.named("diffuse_reflectance");
         if (reflectance) sides.front = Diffuse{paint(*reflectance, shape, sides)};
         p.finish();
+        if (sides.coordinates) findings_.problem(bsdf, "to_uv that moves the picture");
         return sides;
     }
     if (p.type() == "twosided" && depth < 4) {
@@ -166,7 +175,7 @@ void Reader::emission(Properties &shape, const std::string &name, TwoSides &side
         const auto *below = std::get_if<Diffuse>(&sides.front);
         if (!below || greatest_value(below->reflectance) != Rgb(0))
             findings_.problem(*node, "a surface that both emits and reflects: give it a BSDF of reflectance 0");
-        sides.front = Emissive{shown};
+        sides.front = sides.coordinates ? Surface(CoordinateCard{}) : Surface(Emissive{shown});
         sides.alike = false;
     }
 }
