@@ -80,6 +80,8 @@ struct CheckCommand {
     std::filesystem::path folder = "threefold-report";
     std::optional<std::string> json, junit;
     std::vector<std::string> injections; ///< RENDERER:FAULT
+    std::vector<std::string> images;     ///< RENDERER=FOLDER: pictures made elsewhere
+    std::string export_to;               ///< RENDERER=FOLDER: write its scenes, and judge nothing
     std::uint64_t seed = 1;
     double time_limit_s = 600;
     std::string precision = "double";

@@ -203,6 +203,14 @@ int run(int argc, char **argv, const std::vector<SceneRecipe> &scenes, const std
         ->capture_default_str()
         ->check(CLI::PositiveNumber);
     check.add_option("--precision", check_command.precision, "Tracer: float or double")->capture_default_str();
+    check
+        .add_option("--image", check_command.images,
+                    "One more witness, mitsuba=FOLDER: pictures made elsewhere, of the scenes that --export wrote with "
+                    "the same claims, options and seed")
+        ->allow_extra_args(false);
+    check.add_option("--export", check_command.export_to,
+                     "Only write, mitsuba=FOLDER: each experiment's scene as Mitsuba 3 XML and a script that renders "
+                     "them; what Mitsuba cannot say is left out and told");
     check.add_flag("--dry-run", check_command.dry_run, "Say what would be rendered");
     add_common(check);
 

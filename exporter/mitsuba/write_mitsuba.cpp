@@ -201,6 +201,8 @@ private:
                            value(node, "boolean", "raw", "true");
                            value(node, "string", "filter_type", "bilinear");
                            value(node, "string", "wrap_mode", "clamp");
+                           // By default 16 bits are kept as half a float, which has 11.
+                           value(node, "string", "format", "variant");
                        },
                    },
                    paint);
@@ -213,7 +215,7 @@ private:
 
     void black(Xml shape) { value(child(shape, "bsdf", "diffuse"), "rgb", "reflectance", "0"); }
 
-    void surface(Xml shape, const std::string &name, const Surface &surface) {
+    void surface(Xml shape, const Surface &surface) {
         std::visit(overloaded{
                        [&](const Diffuse &d) {
                            Xml both = child(shape, "bsdf", "twosided");
@@ -277,7 +279,7 @@ private:
                         up.y, normal.y, q.centre_mm.y, right.z, up.z, normal.z, q.centre_mm.z)
                 .c_str();
         if (!front) value(shape, "boolean", "flip_normals", "true");
-        surface(shape, name, q.surface);
+        surface(shape, q.surface);
     }
 
     void mesh(const std::string &name, const Mesh &m) {
@@ -306,7 +308,7 @@ private:
         Xml shape = begin_shape("obj", name);
         value(shape, "string", "filename", file);
         value(shape, "boolean", "face_normals", "true");
-        surface(shape, name, m.surface);
+        surface(shape, m.surface);
     }
 
     void shape(const Object &object) {

@@ -74,6 +74,36 @@ void require_known(const std::vector<Assignment> &assignments, const std::vector
     }
 }
 
+RenderJob job_of(const Experiment &e, std::uint64_t seed, int threads) {
+    RenderJob job;
+    job.scene = e.scene;
+    job.sampling = e.sampling;
+    job.samples_per_pixel = e.samples_per_pixel;
+    job.replicates = replicates_of(e, seed);
+    job.surface_tolerance_mm = e.surface_tolerance_mm;
+    job.cut_weight = e.cut_weight;
+    job.threads = threads;
+    return job;
+}
+
+std::vector<PlannedClaim> plan_of(const CheckRequest &request) {
+    std::vector<PlannedClaim> plan;
+    for (const bool calibrating : {true, false})
+        for (const Preset preset : request.presets)
+            for (const Claim &claim : request.claims) {
+                if ((claim.name == "calibration") != calibrating) continue;
+                const ClaimContext context{request.scenes, preset, request.assignments, request.quick};
+                plan.push_back({&claim, context, claim.experiments(context)});
+            }
+    require_known(request.assignments, plan);
+    for (PlannedClaim &p : plan)
+        for (Experiment &e : p.experiments) {
+            validate(e.scene);
+            e.record.scene_hash = scene_hash(e.scene);
+        }
+    return plan;
+}
+
 class Run {
 public:
     explicit Run(const CheckRequest &request) : request_(request) {
@@ -121,21 +151,8 @@ private:
     static constexpr std::string_view calibration_name = "calibration";
 
     std::vector<PlannedClaim> make_plan() {
-        std::vector<PlannedClaim> plan;
-        for (const bool calibrating : {true, false})
-            for (const Preset preset : request_.presets)
-                for (const Claim &claim : request_.claims) {
-                    if ((claim.name == calibration_name) != calibrating) continue;
-                    const ClaimContext context{request_.scenes, preset, request_.assignments, request_.quick};
-                    plan.push_back({&claim, context, claim.experiments(context)});
-                }
-        require_known(request_.assignments, plan);
-        for (PlannedClaim &p : plan)
-            for (Experiment &e : p.experiments) {
-                validate(e.scene);
-                e.record.scene_hash = scene_hash(e.scene);
-                ++experiments_;
-            }
+        std::vector<PlannedClaim> plan = plan_of(request_);
+        for (const PlannedClaim &p : plan) experiments_ += static_cast<double>(p.experiments.size());
         return plan;
     }
 
@@ -179,14 +196,7 @@ private:
             if (request_.on_progress) request_.on_progress(w.name, (done + share) / experiments_, e.name);
         };
         tell(0);
-        RenderJob job;
-        job.scene = e.scene;
-        job.sampling = e.sampling;
-        job.samples_per_pixel = e.samples_per_pixel;
-        job.replicates = replicates_of(e, seed_of(w));
-        job.surface_tolerance_mm = e.surface_tolerance_mm;
-        job.cut_weight = e.cut_weight;
-        job.threads = request_.threads;
+        RenderJob job = job_of(e, seed_of(w), request_.threads);
         if (const auto fault = request_.injected.find(w.name); fault != request_.injected.end())
             job = with_fault(std::move(job), fault->second);
         try {
@@ -196,7 +206,7 @@ private:
             if (!t.rendered.record.from_cache) {
                 record.seconds += t.rendered.record.seconds;
                 result_.renderer_seconds += t.rendered.record.seconds;
-                if (!w.adapter) result_.tracer_seconds += t.rendered.record.seconds;
+                if (w.is_tracer()) result_.tracer_seconds += t.rendered.record.seconds;
             }
             result_.renders.push_back(t.rendered.record);
             tell(1);
@@ -204,11 +214,12 @@ private:
         } catch (const Error &error) {
             // The program itself failed: the others go on, and what they found is not lost.
             const bool of_renderer =
-                w.adapter && (error.code() == Exit::timed_out || error.code() == Exit::input_output ||
-                              error.code() == Exit::bad_data);
+                !w.is_tracer() && (error.code() == Exit::timed_out || error.code() == Exit::input_output ||
+                                   error.code() == Exit::bad_data);
             if (!of_renderer) throw;
             const std::string problem = fmt::format("{} gave no picture of {}: {}", w.title, e.name, error.what());
-            if (error.code() == Exit::bad_data) { // what it refuses says nothing of other scenes
+            // What it refuses, or a picture that nobody made, says nothing of other scenes.
+            if (error.code() == Exit::bad_data || w.pictures) {
                 refusals_.push_back(problem);
                 return std::nullopt;
             }
@@ -458,5 +469,13 @@ private:
 } // namespace
 
 CheckOutcome check(const CheckRequest &request) { return Run(request)(); }
+
+std::vector<PlannedJob> planned_jobs(const CheckRequest &request) {
+    std::vector<PlannedJob> jobs;
+    for (const PlannedClaim &planned : plan_of(request))
+        for (const Experiment &e : planned.experiments)
+            if (!e.inspect) jobs.push_back({planned.claim->name, e.name, job_of(e, request.seed, request.threads)});
+    return jobs;
+}
 
 } // namespace threefold

@@ -44,4 +44,12 @@ struct CheckOutcome {
 /// others.
 CheckOutcome check(const CheckRequest &request);
 
+/// What each renderer is asked, in the run's order: the label of an experiment and its job.
+struct PlannedJob {
+    std::string claim, label;
+    RenderJob job;
+};
+/// Of all experiments that need a picture, `request.injected` and `witnesses` left out. Throws as `check` does.
+std::vector<PlannedJob> planned_jobs(const CheckRequest &request);
+
 } // namespace threefold
