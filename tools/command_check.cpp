@@ -8,9 +8,11 @@
 #include <fmt/ranges.h>
 
 #include "exporter/files.h"
+#include "exporter/mitsuba/pictures.h"
 #include "tools/commands.h"
 #include "tools/progress.h"
 #include "verifier/check/check.h"
+#include "verifier/check/plan.h"
 #include "verifier/report/html.h"
 #include "verifier/report/json.h"
 #include "verifier/report/junit.h"
@@ -77,6 +79,42 @@ void print_plan(const CheckRequest &request) {
     }
 }
 
+Assignment parse_elsewhere(std::string_view option, const std::string &text) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
+        throw Error(Exit::usage, fmt::format("{} takes RENDERER=FOLDER, not '{}'", option, text));
+    const std::string name = text.substr(0, equals);
+    if (std::ranges::count(elsewhere_names(), name) == 0)
+        throw Error(Exit::usage, unknown_name("renderer elsewhere", name, elsewhere_names()));
+    return {name, text.substr(equals + 1)};
+}
+
+/// Scenes of all experiments that can be said, and the script that renders them; lists the pictures on stdout.
+Exit export_jobs(const CheckRequest &request, const std::filesystem::path &folder) {
+    std::vector<MitsubaJob> jobs;
+    std::size_t refused = 0;
+    for (const PlannedJob &planned : planned_jobs(request)) {
+        try {
+            jobs.push_back(to_mitsuba_job(planned.job, planned.label));
+        } catch (const Error &error) {
+            if (error.code() != Exit::bad_data) throw;
+            ++refused;
+            say(fmt::format("left out: {} of {}: {}", planned.label, planned.claim, error.what()));
+        }
+    }
+    make_folder(folder);
+    for (const MitsubaJob &job : jobs) {
+        for (const ExportedFile &file : job.files) write_file_atomically(folder / file.name, file.bytes);
+        for (const std::string &picture : job.pictures)
+            fmt::print("{}  {} x {} px\n", picture, job.width_px, job.height_px);
+    }
+    write_file_atomically(folder / "render.sh", render_script(jobs));
+    say(fmt::format("wrote {} scenes to {} ({} left out); sh {} renders them; then check --image mitsuba={}",
+                    jobs.size(), folder.string(), refused, shell_quoted((folder / "render.sh").string()),
+                    shell_quoted(folder.string())));
+    return refused == 0 ? Exit::holds : Exit::undecided;
+}
+
 std::vector<Preset> parse_presets(const std::string &name, bool quick) {
     if (name == "both" || (name.empty() && !quick)) return {Preset::text, Preset::published};
     if (name.empty()) return {Preset::text};
@@ -110,7 +148,14 @@ Exit command_check(const Shop &shop, const CheckCommand &command) {
         print_plan(request);
         return Exit::holds;
     }
+    if (!command.export_to.empty()) return export_jobs(request, parse_elsewhere("--export", command.export_to).value);
     request.witnesses = asked_witnesses(command.with);
+    for (const std::string &text : command.images) {
+        const Assignment elsewhere = parse_elsewhere("--image", text);
+        if (std::ranges::count(request.witnesses, elsewhere.name, &Witness::name) > 0)
+            throw Error(Exit::usage, fmt::format("--image names {} twice", elsewhere.name));
+        request.witnesses.push_back(witness_elsewhere(elsewhere.name, elsewhere.value));
+    }
 
     std::vector<std::string> names;
     for (const Witness &w : request.witnesses)

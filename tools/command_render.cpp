@@ -63,7 +63,9 @@ Exit command_export(const Shop &shop, const ExportRequest &request) {
 
 Exit command_render(const Shop &shop, const RenderRequest &request) {
     const Scene scene = scene_of(shop, request.scene);
-    const fs::path output = request.output.value_or(request.scene.name + ".exr");
+    const std::string label =
+        request.scene.mitsuba.empty() ? request.scene.name : fs::path(request.scene.mitsuba).stem().string();
+    const fs::path output = request.output.value_or(label + ".exr");
     std::string extension = output.extension().string();
     std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
     if (extension != ".exr" && extension != ".tif" && extension != ".png")
@@ -90,8 +92,8 @@ Exit command_render(const Shop &shop, const RenderRequest &request) {
     const auto attempt = [&] {
         try {
             return render(witness, job,
-                          {request.keep.value_or(temporary.path()), request.scene.name, tracer, time_limit,
-                           [&](double share) { progress.update(witness.name, share, request.scene.name); }});
+                          {request.keep.value_or(temporary.path()), label, tracer, time_limit,
+                           [&](double share) { progress.update(witness.name, share, label); }});
         } catch (const Error &error) {
             // The log goes away with the temporary folder.
             if (request.keep || !witness.adapter || !error.hint().empty()) throw;
@@ -101,7 +103,7 @@ Exit command_render(const Shop &shop, const RenderRequest &request) {
     const Rendered r = attempt();
     progress.finish();
 
-    std::map<std::string, std::string> metadata{{"threefold:scene", request.scene.name},
+    std::map<std::string, std::string> metadata{{"threefold:scene", label},
                                                 {"threefold:scene_hash", r.record.scene_hash},
                                                 {"threefold:renderer", witness.name},
                                                 {"threefold:command", shop.command_line}};

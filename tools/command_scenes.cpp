@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "exporter/file_reader.h"
+#include "exporter/mitsuba/read_mitsuba.h"
 #include "exporter/scene_json.h"
 #include "scenes/validate.h"
 #include "tools/commands.h"
@@ -32,8 +33,18 @@ Parameters parameters_of(const SceneRecipe &recipe, const SceneRequest &request)
     return values;
 }
 
+SceneRecipe recipe_of(const Shop &shop, const SceneRequest &request) {
+    if (request.mitsuba.empty() == request.name.empty())
+        throw Error(Exit::usage,
+                    "name a scene of the catalogue (see: threefold list), or --mitsuba FILE.xml: one of them");
+    if (request.mitsuba.empty()) return find_scene(shop.scenes, request.name);
+    return mitsuba_scene(request.mitsuba, [&shop](const std::string &note) {
+        if (shop.verbosity > 0) say("note: " + note);
+    });
+}
+
 Scene scene_of(const Shop &shop, const SceneRequest &request) {
-    const SceneRecipe &recipe = find_scene(shop.scenes, request.name);
+    const SceneRecipe recipe = recipe_of(shop, request);
     Scene scene = recipe.make(parameters_of(recipe, request));
     validate(scene);
     return scene;
@@ -82,7 +93,7 @@ std::string unit_of(const std::string &name) {
 } // namespace
 
 Exit command_show(const Shop &shop, const SceneRequest &request, bool json) {
-    const SceneRecipe &recipe = find_scene(shop.scenes, request.name);
+    const SceneRecipe recipe = recipe_of(shop, request);
     const Parameters values = parameters_of(recipe, request);
     const Scene scene = scene_of(shop, request);
     const Parameters text(recipe.parameters, Preset::text), published(recipe.parameters, Preset::published);

@@ -31,8 +31,12 @@ struct SceneRequest {
     std::string name;
     std::string preset = "text";
     std::vector<std::string> assignments;
-    std::string size; ///< "WxH", or empty
+    std::string size{}; ///< "WxH", or empty
+    std::string mitsuba{}; ///< a file to read the scene from, in place of `name`; or empty
 };
+
+/// Of the catalogue, or of the user's file.
+SceneRecipe recipe_of(const Shop &shop, const SceneRequest &request);
 
 Parameters parameters_of(const SceneRecipe &recipe, const SceneRequest &request);
 /// Built and validated.
@@ -76,6 +80,8 @@ struct CheckCommand {
     std::filesystem::path folder = "threefold-report";
     std::optional<std::string> json, junit;
     std::vector<std::string> injections; ///< RENDERER:FAULT
+    std::vector<std::string> images;     ///< RENDERER=FOLDER: pictures made elsewhere
+    std::string export_to;               ///< RENDERER=FOLDER: write its scenes, and judge nothing
     std::uint64_t seed = 1;
     double time_limit_s = 600;
     std::string precision = "double";

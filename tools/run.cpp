@@ -44,7 +44,10 @@ std::string command_line(int argc, char **argv) {
 }
 
 void add_scene_options(CLI::App &command, SceneRequest &scene) {
-    command.add_option("scene", scene.name, "Scene of the catalogue (see: threefold list)")->required();
+    command.add_option("scene", scene.name, "Scene of the catalogue (see: threefold list)");
+    command.add_option("--mitsuba", scene.mitsuba,
+                       "Instead: a scene file of Mitsuba 0.5 to 3 (units: --set file.unit_mm, 10 by default; --verbose "
+                       "tells what in it is not used)");
     command
         .add_option("--preset", scene.preset, "Values of the study's wording (text) or of its scene files (published)")
         ->capture_default_str();
@@ -200,6 +203,14 @@ int run(int argc, char **argv, const std::vector<SceneRecipe> &scenes, const std
         ->capture_default_str()
         ->check(CLI::PositiveNumber);
     check.add_option("--precision", check_command.precision, "Tracer: float or double")->capture_default_str();
+    check
+        .add_option("--image", check_command.images,
+                    "One more witness, mitsuba=FOLDER: pictures made elsewhere, of the scenes that --export wrote with "
+                    "the same claims, options and seed")
+        ->allow_extra_args(false);
+    check.add_option("--export", check_command.export_to,
+                     "Only write, mitsuba=FOLDER: each experiment's scene as Mitsuba 3 XML and a script that renders "
+                     "them; what Mitsuba cannot say is left out and told");
     check.add_flag("--dry-run", check_command.dry_run, "Say what would be rendered");
     add_common(check);
 

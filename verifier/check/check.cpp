@@ -13,12 +13,10 @@
 
 #include "exporter/files.h"
 #include "exporter/image/image_io.h"
-#include "exporter/scene_json.h"
-#include "scenes/validate.h"
 #include "verifier/agreement/tiles.h"
 #include "verifier/check/hearing.h"
+#include "verifier/check/plan.h"
 #include "verifier/measure/radiance.h"
-#include "verifier/tracer/sampler.h"
 
 namespace threefold {
 
@@ -28,52 +26,11 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-struct PlannedClaim {
-    const Claim *claim;
-    ClaimContext context;
-    std::vector<Experiment> experiments;
-};
-
 /// What one witness made of one experiment.
 struct Testimony {
     const Witness *witness;
     Rendered rendered;
 };
-
-std::vector<Replicate> replicates_of(const Experiment &e, std::uint64_t seed) {
-    std::vector<Replicate> all;
-    for (int k = 0; k < e.replicates; ++k) {
-        Replicate r;
-        r.seed = tracer::mix(seed * 0x10001 + static_cast<std::uint64_t>(k));
-        // Cosets of a lattice: each replicate looks through another point of its pixels.
-        if (e.shift_replicates) {
-            const tracer::PixelSampler where(seed, 0, 0);
-            r.film_offset_px = where.position(static_cast<std::uint32_t>(k)) - Vec2(0.5);
-        }
-        all.push_back(r);
-    }
-    return all;
-}
-
-Camera camera_of(const Experiment &e, const Replicate &replicate) {
-    Camera camera = e.scene.camera;
-    camera.film_offset_px += replicate.film_offset_px;
-    return camera;
-}
-
-void require_known(const std::vector<Assignment> &assignments, const std::vector<PlannedClaim> &plan) {
-    for (const Assignment &a : assignments) {
-        std::vector<std::string> valid;
-        for (const PlannedClaim &p : plan)
-            for (const Experiment &e : p.experiments)
-                for (const auto &[name, value] : e.record.parameters) valid.push_back(name);
-        std::ranges::sort(valid);
-        const auto repeated = std::ranges::unique(valid);
-        valid.erase(repeated.begin(), repeated.end());
-        if (!std::ranges::binary_search(valid, a.name))
-            throw Error(Exit::usage, unknown_name("parameter", a.name, valid));
-    }
-}
 
 class Run {
 public:
@@ -119,24 +76,9 @@ public:
     }
 
 private:
-    static constexpr std::string_view calibration_name = "calibration";
-
     std::vector<PlannedClaim> make_plan() {
-        std::vector<PlannedClaim> plan;
-        for (const bool calibrating : {true, false})
-            for (const Preset preset : request_.presets)
-                for (const Claim &claim : request_.claims) {
-                    if ((claim.name == calibration_name) != calibrating) continue;
-                    const ClaimContext context{request_.scenes, preset, request_.assignments, request_.quick};
-                    plan.push_back({&claim, context, claim.experiments(context)});
-                }
-        require_known(request_.assignments, plan);
-        for (PlannedClaim &p : plan)
-            for (Experiment &e : p.experiments) {
-                validate(e.scene);
-                e.record.scene_hash = scene_hash(e.scene);
-                ++experiments_;
-            }
+        std::vector<PlannedClaim> plan = plan_of(request_);
+        for (const PlannedClaim &p : plan) experiments_ += static_cast<double>(p.experiments.size());
         return plan;
     }
 
@@ -178,14 +120,7 @@ private:
             if (request_.on_progress) request_.on_progress(name, (done + share) / experiments_, now);
         };
         tell(0);
-        RenderJob job;
-        job.scene = e.scene;
-        job.sampling = e.sampling;
-        job.samples_per_pixel = e.samples_per_pixel;
-        job.replicates = replicates_of(e, seed_of(w));
-        job.surface_tolerance_mm = e.surface_tolerance_mm;
-        job.cut_weight = e.cut_weight;
-        job.threads = request_.threads;
+        RenderJob job = job_of(e, seed_of(w), request_.threads);
         if (const auto fault = request_.injected.find(w.name); fault != request_.injected.end())
             job = with_fault(std::move(job), fault->second);
         return {&w, std::move(job), {request_.folder, e.name, request_.tracer, request_.time_limit, tell}};
@@ -211,7 +146,7 @@ private:
                 record_of(*answer.witness).seconds += record.seconds;
                 longest = std::max(longest, record.seconds);
                 all += record.seconds;
-                if (!answer.witness->adapter) result_.tracer_seconds += record.seconds;
+                if (answer.witness->is_tracer()) result_.tracer_seconds += record.seconds;
             }
             result_.renders.push_back(record);
             if (request_.on_progress)
@@ -228,11 +163,12 @@ private:
         } catch (const Error &error) {
             // The program itself failed: the others go on, and what they found is not lost.
             const bool of_renderer =
-                w.adapter && (error.code() == Exit::timed_out || error.code() == Exit::input_output ||
-                              error.code() == Exit::bad_data);
+                !w.is_tracer() && (error.code() == Exit::timed_out || error.code() == Exit::input_output ||
+                                   error.code() == Exit::bad_data);
             if (!of_renderer) throw;
             const std::string problem = fmt::format("{} gave no picture of {}: {}", w.title, e.name, error.what());
-            if (error.code() == Exit::bad_data) { // what it refuses says nothing of other scenes
+            // What it refuses, or a picture that nobody made, says nothing of other scenes.
+            if (error.code() == Exit::bad_data || w.pictures) {
                 refusals_.push_back(problem);
                 return;
             }

@@ -9,6 +9,7 @@
 
 #include "exporter/files.h"
 #include "exporter/image/image_io.h"
+#include "exporter/mitsuba/pictures.h"
 #include "exporter/scene_json.h"
 #include "scenes/error.h"
 #include "scenes/parameters.h"
@@ -129,6 +130,20 @@ Rendered render_by_program(const Witness &witness, const RenderJob &job, const E
 
 } // namespace
 
+std::vector<std::string> elsewhere_names() { return {"mitsuba"}; }
+
+Witness witness_elsewhere(const std::string &name, const std::filesystem::path &pictures) {
+    if (std::ranges::count(elsewhere_names(), name) == 0)
+        throw Error(Exit::usage, unknown_name("renderer elsewhere", name, elsewhere_names()));
+    if (!std::filesystem::is_directory(pictures))
+        throw Error(Exit::input_output, fmt::format("{} is no folder with pictures", pictures.string()));
+    Witness w;
+    w.name = name;
+    w.title = "Mitsuba (pictures made elsewhere)";
+    w.pictures = pictures;
+    return w;
+}
+
 std::vector<std::string> witness_names() {
     std::vector<std::string> names{"tracer"};
     for (const Adapter &adapter : adapters()) names.emplace_back(adapter.name);
@@ -154,8 +169,29 @@ std::vector<Witness> find_witnesses(const std::vector<std::string> &names) {
     return found;
 }
 
+namespace {
+
+Rendered take_pictures(const Witness &witness, const RenderJob &job, const RenderOptions &options) {
+    const MitsubaJob asked = to_mitsuba_job(job, options.label);
+    Rendered r;
+    r.images = read_pictures(asked, job, *witness.pictures);
+    RenderRecord &record = r.record;
+    record.witness = witness.name;
+    record.command = fmt::format("{} by someone else", asked.files.front().name);
+    record.accuracy = asked.accuracy;
+    record.width_px = job.scene.camera.image_width_px();
+    record.height_px = job.scene.camera.image_height_px();
+    record.replicates = static_cast<int>(job.replicates.size());
+    record.samples_per_pixel = asked.samples_per_pixel;
+    record.scene_hash = scene_hash(job.scene);
+    return r;
+}
+
+} // namespace
+
 Rendered render(const Witness &witness, RenderJob job, const RenderOptions &options) {
     validate(job.scene);
+    if (witness.pictures) return take_pictures(witness, job, options);
     const Needs needed = needs(job.scene);
     if (witness.adapter && job.sampling == Sampling::box && (needed.ray_tree || needed.many_lights))
         job.samples_per_pixel *= witness.adapter->sample_factor;

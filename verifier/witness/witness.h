@@ -21,9 +21,17 @@ struct Witness {
     const Adapter *adapter = nullptr; ///< null: our own tracer
     std::optional<InstalledRenderer> installed;
     std::string problem; ///< why a program that is there cannot be used
+    /// Where its pictures lie: they were made elsewhere, and are only read.
+    std::optional<std::filesystem::path> pictures;
 
     bool present() const { return !adapter || installed; }
+    bool is_tracer() const { return !adapter && !pictures; }
 };
+
+/// Those whose pictures can be made elsewhere: "mitsuba".
+std::vector<std::string> elsewhere_names();
+/// Error(usage) for another name.
+Witness witness_elsewhere(const std::string &name, const std::filesystem::path &pictures);
 
 /// Names in their order of appearance: tracer first.
 std::vector<std::string> witness_names();

@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: MIT
+// Mitsuba scenes in and out. The files are written for these tests; Mitsuba itself is not asked: where its pictures are
+// needed, our tracer makes them, which tries the way they take and says nothing of agreement.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "exporter/file_reader.h"
+#include "exporter/files.h"
+#include "exporter/image/image_io.h"
+#include "exporter/mitsuba/pictures.h"
+#include "exporter/mitsuba/read_mitsuba.h"
+#include "exporter/mitsuba/write_mitsuba.h"
+#include "exporter/scene_json.h"
+#include "scenes/catalogue/catalogue.h"
+#include "scenes/error.h"
+#include "scenes/validate.h"
+#include "tests/temporary_folder.h"
+#include "verifier/check/check.h"
+#include "verifier/check/plan.h"
+
+namespace threefold {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+constexpr const char *camera = R"(<sensor type="perspective"><float name="fov" value="10"/><transform name="toWorld">
+<lookat target="0,0,0" origin="90,0,0" up="0,1,0"/></transform><film type="hdrfilm"><integer name="width" value="64"/>
+<integer name="height" value="48"/></film></sensor><emitter type="constant"><spectrum name="radiance" value="1"/></emitter>)";
+
+Scene read(const tests::TemporaryFolder &folder, const std::string &body, const std::vector<Assignment> &set = {},
+           const std::string &version = "0.5.0", std::vector<std::string> *notes = nullptr) {
+    std::ofstream(folder / "scene.xml") << "<scene version=\"" << version << "\">\n" << body << "</scene>";
+    const SceneRecipe recipe = mitsuba_scene(folder / "scene.xml", [notes](const std::string &note) {
+        if (notes) notes->push_back(note);
+    });
+    Parameters p(recipe.parameters, Preset::text, file_reader());
+    for (const Assignment &a : set) p.set(a.name, a.value);
+    return recipe.make(p);
+}
+
+std::string refusal(const tests::TemporaryFolder &folder, const std::string &body,
+                    const std::string &version = "0.5.0") {
+    try {
+        read(folder, body, {}, version);
+    } catch (const Error &error) {
+        EXPECT_EQ(error.code(), Exit::bad_data);
+        return error.what();
+    }
+    return "was read";
+}
+
+std::string sphere(double radius, const std::string &more) {
+    return fmt::format("<shape type=\"sphere\"><float name=\"radius\" value=\"{}\"/>{}</shape>", radius, more);
+}
+
+std::string glass(const std::string &inside, const std::string &outside) {
+    return fmt::format(
+        "<bsdf type=\"dielectric\"><float name=\"intIOR\" value=\"{}\"/><float name=\"extIOR\" value=\"{}\"/></bsdf>",
+        inside, outside);
+}
+
+const std::string flipped = "<boolean name=\"flipNormals\" value=\"true\"/>";
+
+TEST(Mitsuba, TwoConcentricSpheresAreOneHollowOrbHoweverTheInnerOneIsSaid) {
+    const tests::TemporaryFolder folder;
+    for (const std::string &inner : {flipped + glass("1.5", "1.0"), glass("1.0", "1.5")}) {
+        const Scene scene = read(folder, camera + sphere(6.5, inner) + sphere(6.8, glass("1.5", "1.0")));
+        ASSERT_EQ(scene.objects.size(), 1u);
+        const auto &shell = std::get<GlassShell>(scene.objects[0].shape);
+        EXPECT_NEAR(shell.outer_radius_mm, 68, 1e-12);
+        EXPECT_NEAR(shell.wall_mm, 3, 1e-12);
+        EXPECT_DOUBLE_EQ(shell.glass.index, 1.5);
+    }
+}
+
+TEST(Mitsuba, SpheresInOneAnotherThatAreNoHollowOrbAreRefused) {
+    const tests::TemporaryFolder folder;
+    EXPECT_THAT(refusal(folder, camera + sphere(6.8, glass("1.5", "1")) + sphere(6, glass("1.5", "1"))),
+                HasSubstr("not the one hollow"));
+    EXPECT_THAT(refusal(folder, camera + sphere(6.8, glass("1.0", "1.5"))), HasSubstr("less dense"));
+}
+
+TEST(Mitsuba, ACameraLooksFromItsEyeWithImageRightWhereMitsubaHasIt) {
+    const tests::TemporaryFolder folder;
+    const Camera c = read(folder, camera + sphere(1, glass("1.5", "1"))).camera;
+    EXPECT_EQ(c.eye_mm, Vec3(900, 0, 0));
+    EXPECT_EQ(c.target_mm, Vec3(0));
+    EXPECT_DOUBLE_EQ(c.horizontal_fov_deg, 10);
+    EXPECT_EQ(c.width_px, 64);
+    // A mirrored one is another picture.
+    std::string mirrored = camera;
+    mirrored.replace(mirrored.find("<lookat"), 0, "<scale x=\"-1\"/>");
+    EXPECT_THAT(refusal(folder, mirrored), HasSubstr("mirrors the picture"));
+}
+
+TEST(Mitsuba, ALightTurnsWithItsTransform) {
+    const tests::TemporaryFolder folder;
+    const Scene scene =
+        read(folder, std::string(camera) + R"(<emitter type="directional"><spectrum name="irradiance" value="0.3"/>
+<transform name="toWorld"><rotate x="1" angle="90"/><rotate x="1" angle="40"/><rotate y="1" angle="55"/></transform></emitter>)");
+    const double el = 40 * M_PI / 180, az = 55 * M_PI / 180;
+    ASSERT_EQ(scene.lights.size(), 1u);
+    EXPECT_LT(glm::distance(scene.lights[0].travel,
+                            Vec3(-std::sin(el) * std::sin(az), -std::cos(el), -std::sin(el) * std::cos(az))),
+              1e-12);
+    EXPECT_EQ(scene.lights[0].irradiance, Rgb(0.3));
+}
+
+TEST(Mitsuba, ARectangleSeenFromBehindIsBlackAndFromBothSidesRefused) {
+    const tests::TemporaryFolder folder;
+    const auto rectangle = [](double angle, double x) {
+        return fmt::format(
+            R"(<shape type="rectangle"><transform name="toWorld"><rotate y="1" angle="{}"/><translate x="{}"/>
+</transform></shape>)",
+            angle, x);
+    };
+    const auto reflectance = [](const Scene &s) {
+        return std::get<Rgb>(std::get<Diffuse>(std::get<Quad>(s.objects.back().shape).surface).reflectance);
+    };
+    EXPECT_EQ(reflectance(read(folder, camera + rectangle(90, -10))), Rgb(0.5));
+    EXPECT_EQ(reflectance(read(folder, camera + rectangle(-90, -10))), Rgb(0));
+    EXPECT_THAT(refusal(folder, camera + sphere(1, glass("1.5", "1")) + rectangle(90, 10) + rectangle(90, 0.5)),
+                HasSubstr("make it twosided"));
+}
+
+TEST(Mitsuba, AGridCoversItsRectangleOnceWithLinesOfTheStatedWidth) {
+    const tests::TemporaryFolder folder;
+    const Scene scene =
+        read(folder, std::string(camera) + R"(<shape type="rectangle"><bsdf type="diffuse"><texture name="reflectance"
+type="gridtexture"><spectrum name="color0" value="0.4"/><spectrum name="color1" value="0.8"/><float name="uscale" value="4"/>
+<float name="vscale" value="2"/><float name="lineWidth" value="0.1"/></texture></bsdf><transform name="toWorld">
+<rotate y="1" angle="90"/></transform></shape>)");
+    ASSERT_EQ(scene.objects.size(), 2u);
+    const auto area = [](const Mesh &mesh) {
+        double sum = 0;
+        for (const glm::uvec3 &t : mesh.triangles)
+            sum += glm::length(glm::cross(mesh.vertices_mm[t.y] - mesh.vertices_mm[t.x],
+                                          mesh.vertices_mm[t.z] - mesh.vertices_mm[t.x])) /
+                   2;
+        return sum;
+    };
+    const double field = area(std::get<Mesh>(scene.objects[0].shape)),
+                 lines = area(std::get<Mesh>(scene.objects[1].shape));
+    EXPECT_NEAR(field, 400 * 0.8 * 0.8, 1e-9);
+    EXPECT_NEAR(field + lines, 400, 1e-9);
+}
+
+TEST(Mitsuba, AllThatCannotBeReadIsNamedInOneErrorWithWhereItStands) {
+    const tests::TemporaryFolder folder;
+    const std::string what =
+        refusal(folder, std::string(camera) + "\n<emitter type=\"spot\"/>\n  <shape type=\"cube\"/>\n" +
+                            sphere(std::nan(""), glass("unobtainium", "1")) +
+                            "<shape type=\"obj\"><string name=\"filename\" value=\"none.obj\"/><float name=\"odd\" "
+                            "value=\"1\"/></shape>");
+    for (const char *part :
+         {"scene.xml:5:2: <emitter type=\"spot\">", "scene.xml:6:4: <shape type=\"cube\">", "'nan' is no number",
+          "'unobtainium' is no index", "there is no mesh none.obj", "name=\"odd\">: is not understood"})
+        EXPECT_THAT(what, HasSubstr(part));
+    EXPECT_EQ(what.find('\n'), std::string::npos);
+}
+
+TEST(Mitsuba, ASceneWithoutLightIsRefusedAndCanBeGivenOne) {
+    const tests::TemporaryFolder folder;
+    std::string dark = camera;
+    dark.resize(dark.find("<emitter"));
+    const std::string body = dark + sphere(1, glass("1.5", "1"));
+    EXPECT_THAT(refusal(folder, body), HasSubstr("environment.radiance=1"));
+    EXPECT_EQ(read(folder, body, {{"environment.radiance", "1"}}).environment->radiance, Rgb(1));
+}
+
+TEST(Mitsuba, HostileFilesAreAnsweredNotFollowed) {
+    const tests::TemporaryFolder folder;
+    EXPECT_THAT(refusal(folder, "<include filename=\"scene.xml\"/>"), HasSubstr("is it a loop?"));
+    std::string deep, end;
+    for (int i = 0; i < 5000; ++i) {
+        deep += "<bsdf type=\"twosided\">";
+        end += "</bsdf>";
+    }
+    EXPECT_THAT(refusal(folder, deep + end), HasSubstr("nested more than"));
+    std::string longer = "<default name=\"a0\" value=\"xxxxxxxxxxxxxxxx\"/>";
+    for (int i = 1; i < 20; ++i) longer += fmt::format("<default name=\"a{0}\" value=\"$a{1}$a{1}\"/>", i, i - 1);
+    EXPECT_THAT(refusal(folder, longer), HasSubstr("longer than 4096"));
+    EXPECT_THAT(refusal(folder, camera + std::string("<bsdf type=\"twosided\" id=\"x\"><ref id=\"x\"/></bsdf><shape "
+                                                     "type=\"rectangle\"><ref id=\"x\"/></shape>")),
+                HasSubstr("cannot be read"));
+    EXPECT_THAT(refusal(folder, "<sensor"), HasSubstr("scene.xml:2:"));
+    EXPECT_THAT(refusal(folder, "", "9.9"), HasSubstr("version"));
+}
+
+TEST(Mitsuba, EveryCatalogueSceneComesBackAsItWas) {
+    for (const SceneRecipe &recipe : built_in_scenes()) {
+        const tests::TemporaryFolder folder;
+        const Scene scene = recipe.make(Parameters(recipe.parameters, Preset::published, file_reader()));
+        write_mitsuba(scene, folder.path());
+        const SceneRecipe back = mitsuba_scene(folder / "scene.xml");
+        const Scene again = back.make(Parameters(back.parameters, Preset::text, file_reader()));
+        validate(again);
+        auto one = to_json(scene), two = to_json(again);
+        ASSERT_EQ(one["objects"].size(), two["objects"].size()) << recipe.name;
+        // Glass first: the reader puts orbs before what stands round them, and meshes come back in single precision.
+        std::map<std::string, nlohmann::ordered_json> first, second;
+        for (auto &o : one["objects"]) first[o["name"]] = o["shape"];
+        for (auto &o : two["objects"]) second[o["name"]] = o["shape"];
+        for (auto &[name, shape] : first) {
+            ASSERT_TRUE(second.contains(name)) << recipe.name << " " << name;
+            auto &other = second[name];
+            if (shape.contains("mesh")) {
+                EXPECT_EQ(shape["mesh"]["surface"], other["mesh"]["surface"]) << recipe.name << " " << name;
+                EXPECT_GE(other["mesh"]["triangles"].get<int>(), shape["mesh"]["triangles"].get<int>() * 99 / 100);
+                continue;
+            }
+            if (shape.contains("shell")) {
+                EXPECT_NEAR(shape["shell"]["wall_mm"].get<double>(), other["shell"]["wall_mm"].get<double>(), 1e-12);
+                other["shell"]["wall_mm"] = shape["shell"]["wall_mm"];
+            }
+            EXPECT_EQ(shape, other) << recipe.name << " " << name;
+        }
+        for (const char *key : {"name", "lights", "environment", "glass_shadow", "camera"})
+            EXPECT_EQ(one[key], two[key]) << recipe.name;
+        EXPECT_EQ(one.contains("dome_directions"), two.contains("dome_directions")) << recipe.name;
+    }
+}
+
+TEST(Mitsuba, WhatItCannotSayIsALossAndNamesAreEscaped) {
+    Scene scene;
+    scene.name = "?><evil a=\"1\"/>";
+    scene.objects = {{"a\"><b.$c", GlassBall{{0, 0, 0}, 60, {1.5, 1, Coating::antireflective}}},
+                     {"a\"><b.$c", Quad{{0, 0, -200}, {50, 0, 0}, {0, 50, 0}, CoordinateCard{}}}};
+    scene.environment = Environment{Rgb(1), 0};
+    const tests::TemporaryFolder folder;
+    const auto losses = write_mitsuba(scene, folder.path());
+    EXPECT_TRUE(std::ranges::any_of(
+        losses, [](const MitsubaLoss &l) { return l.changes_picture && l.what.find("coating") != std::string::npos; }));
+    const SceneRecipe back = mitsuba_scene(folder / "scene.xml");
+    const Scene again = back.make(Parameters(back.parameters, Preset::text, file_reader()));
+    EXPECT_EQ(again.name, scene.name);
+    EXPECT_EQ(again.objects.at(0).name, "a\"><b__c");
+    EXPECT_TRUE(std::holds_alternative<CoordinateCard>(std::get<Quad>(again.objects.at(1).shape).surface));
+}
+
+class Elsewhere : public testing::Test {
+protected:
+    Elsewhere() {
+        request.claims = {find_claim(built_in_claims(), "calibration")};
+        request.scenes = built_in_scenes();
+        request.quick = true;
+        request.folder = folder / "run";
+        for (const PlannedJob &planned : planned_jobs(request)) {
+            const MitsubaJob asked = to_mitsuba_job(planned.job, planned.label);
+            for (const ExportedFile &file : asked.files) write_file_atomically(pictures / file.name, file.bytes);
+            const SceneRecipe back = mitsuba_scene(pictures / asked.files.front().name);
+            RenderJob job;
+            job.scene = back.make(Parameters(back.parameters, Preset::text, file_reader()));
+            job.sampling = Sampling::pixel_centres;
+            const Image image = trace(job, {}).images.front();
+            for (const std::string &name : asked.pictures) write_image(pictures / name, image);
+            names.insert(names.end(), asked.pictures.begin(), asked.pictures.end());
+        }
+        request.witnesses = {find_witnesses({"tracer"}).front(), witness_elsewhere("mitsuba", pictures.path())};
+    }
+
+    const tests::TemporaryFolder folder, pictures;
+    CheckRequest request;
+    std::vector<std::string> names;
+};
+
+TEST_F(Elsewhere, PicturesAreJudgedLikeThoseOfAnyRenderer) {
+    const CheckOutcome outcome = check(request);
+    EXPECT_EQ(outcome.exit, Exit::holds) << outcome.result.summary;
+    EXPECT_EQ(std::ranges::count(outcome.result.claims.front().rows, "mitsuba", &Row::witness) > 0, true);
+}
+
+TEST_F(Elsewhere, WrongPicturesFailAndAMissingOrSmallOneIsNamed) {
+    Image image = read_image(pictures / names.front(), Encoding::linear);
+    for (int row = 0; row < image.height; ++row)
+        for (int column = 0; column < image.width / 2; ++column)
+            std::swap(image.at(column, row), image.at(image.width - 1 - column, row));
+    for (const std::string &name : names) write_image(pictures / name, image);
+    const CheckOutcome mirrored = check(request);
+    EXPECT_EQ(mirrored.exit, Exit::fails);
+    EXPECT_THAT(mirrored.result.claims.front().blamed, ElementsAre("mitsuba"));
+
+    write_image(pictures / names[1], Image(5, 4));
+    EXPECT_THAT(check(request).result.summary, testing::AllOf(HasSubstr(names[1]), HasSubstr("is 5 x 4 px, not")));
+    fs::remove(pictures / names[1]);
+    const CheckOutcome missing = check(request);
+    EXPECT_EQ(missing.exit, Exit::undecided);
+    EXPECT_THAT(missing.result.summary, HasSubstr(names[1] + " is missing"));
+}
+
+} // namespace
+} // namespace threefold
