@@ -48,8 +48,11 @@ struct ExportRequest {
     SceneRequest scene;
     std::string to;
     std::filesystem::path folder;
+    std::string onto;    ///< stmap: the surface's name; empty: the only one
+    bool strict = false; ///< an export that loses something fails
     int samples_per_pixel = 16;
     std::uint64_t seed = 1;
+    double time_limit_s = 600;
 };
 Exit command_export(const Shop &shop, const ExportRequest &request);
 

@@ -156,9 +156,7 @@ std::vector<Witness> find_witnesses(const std::vector<std::string> &names) {
 
 Rendered render(const Witness &witness, RenderJob job, const RenderOptions &options) {
     validate(job.scene);
-    const Needs needed = needs(job.scene);
-    if (witness.adapter && job.sampling == Sampling::box && (needed.ray_tree || needed.many_lights))
-        job.samples_per_pixel *= witness.adapter->sample_factor;
+    if (witness.adapter) job = for_renderer(*witness.adapter, std::move(job));
     if (!witness.problem.empty()) throw Error(Exit::input_output, witness.problem);
     if (!witness.present())
         throw Error(Exit::renderer_missing, fmt::format("{} is not installed", witness.title),
