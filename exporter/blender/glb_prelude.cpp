@@ -56,7 +56,8 @@ def gltf_surface(name, surface):
     material.use_backface_culling = False  # both sides are alike
     nodes = Nodes(material)
     if surface["kind"] == "diffuse":
-        principled(nodes, base=gltf_paint(nodes, surface["reflectance"]), roughness=1.0, specular=0.0)
+        principled(nodes, base=gltf_paint(nodes, surface["reflectance"]), roughness=1.0, specular=0.0,
+                   ior=1.5)  # the format's own, so that it need not be said
     elif surface["kind"] == "emissive":
         emission = nodes.set(nodes.add("ShaderNodeEmission"), Color=gltf_paint(nodes, surface["radiance"]),
                              Strength=surface["strength"])
@@ -95,7 +96,7 @@ def add_gltf_surface(thing):
 
 def add_gltf_camera(scene, camera):
     data = bpy.data.cameras.new("Camera")
-    put(data, sensor_fit="HORIZONTAL", clip_start=camera["farthest"] * 1e-5, clip_end=camera["farthest"])
+    put(data, sensor_fit="HORIZONTAL", clip_start=camera["farthest"] * 1e-4, clip_end=camera["farthest"])
     if camera["projection"] == "perspective":
         put(data, type="PERSP", angle=camera["angle"])
     else:
@@ -134,8 +135,9 @@ def write_glb(scene_data, delivery):
     check_settings()
     path = os.path.join(FOLDER, delivery["file"])
     # RAW: emitters and lights keep their ratio, which photometric factors would change.
-    modes = bpy.ops.export_scene.gltf.get_rna_type().properties
-    mode = {"export_import_convert_lighting_mode": "RAW"} if "export_import_convert_lighting_mode" in modes else {}
+    known = bpy.ops.export_scene.gltf.get_rna_type().properties.keys()
+    mode = {name: "RAW" for name in ("convert_lighting_mode", "export_import_convert_lighting_mode") if name in known}
+    check(len(mode) == 1, "the exporter's way with light is unknown")
     bpy.ops.export_scene.gltf(filepath=path, export_format="GLB", export_cameras=True, export_lights=True,
                               export_yup=True, export_animations=False, export_materials="EXPORT", **mode)
     check(os.path.exists(path), "the glTF file is missing")

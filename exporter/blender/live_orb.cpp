@@ -55,10 +55,9 @@ def numbers_of_faces(nodes, glass):
     return info.outputs["Location"], index, tint
 
 
-def surface_nodes(nodes, given, radius, scale, side, material):
+def surface_nodes(nodes, given, radius, side, material):
     """One surface of the orb: the unit sphere times `radius`, which is a socket."""
-    size = nodes.add("ShaderNodeMath", radius, scale, operation="MULTIPLY")
-    sphere = nodes.set(nodes.add("GeometryNodeTransform", given["Geometry"]), Scale=size.outputs[0])
+    sphere = nodes.set(nodes.add("GeometryNodeTransform", given["Geometry"]), Scale=radius)
     if side < 0:
         sphere = nodes.add("GeometryNodeFlipFaces", sphere).outputs[0]
     painted = nodes.add("GeometryNodeSetMaterial", sphere)
@@ -96,8 +95,8 @@ def orb_group(thing, materials):
     room = nodes.add("ShaderNodeMath", inner_radius, 0.0, operation="GREATER_THAN").outputs[0]
     has_inner = nodes.add("ShaderNodeMath", room, given["Hollow"], operation="MULTIPLY").outputs[0]
     has_none = nodes.add("ShaderNodeMath", has_inner, 0.5, operation="LESS_THAN").outputs[0]
-    outside = surface_nodes(nodes, given, given["Outer radius"], thing["scale"], 1, materials[0])
-    inside = surface_nodes(nodes, given, inner_radius, thing["scale"], -1, materials[1])
+    outside = surface_nodes(nodes, given, given["Outer radius"], 1, materials[0])
+    inside = surface_nodes(nodes, given, inner_radius, -1, materials[1])
     inside = nodes.add("GeometryNodeDeleteGeometry", inside, has_none, domain="FACE").outputs[0]
     both = nodes.add("GeometryNodeJoinGeometry")
     for surface in (inside, outside):  # the last one linked comes first
@@ -118,6 +117,8 @@ def add_live_glass(thing):
         outer_keeps, inner_keeps = math.sqrt(rule["transmittance"]), 1.0
     materials = [glass_material(thing, 1, outer_keeps, numbers_of_faces, "Glass, outer surface"),
                  glass_material(thing, -1, inner_keeps, numbers_of_faces, "Glass, inner surface")]
+    # `scale` puts the triangles half outside, half inside the sphere.
+    points = array.array("d", [thing["scale"] * p for p in points])
     ball = add_mesh(thing["name"], points, corners, [], 3, materials[0], "Orb")
     ball.data.name = "Unit sphere"
     ball.data.materials.append(materials[1])
