@@ -269,7 +269,7 @@ TEST(FreshFolder, RefusesWhatIsNotEmptyOrNoFolder) {
     EXPECT_THAT(refusal([&] { require_fresh_folder(folder.path()); }).what(), HasSubstr("not empty"));
     EXPECT_THAT(refusal([&] { require_fresh_folder(folder / "mine.txt"); }).what(), HasSubstr("is not a folder"));
     EXPECT_THAT(refusal([&] { require_fresh_folder(folder / "mine.txt/x"); }).what(), HasSubstr("is not a folder"));
-    EXPECT_EQ(refusal([] { require_fresh_folder("/proc/threefold/x"); }).code(), Exit::input_output);
+    EXPECT_EQ(refusal([] { write_fresh_folder("/proc/threefold/x", {{"one", "1"}}); }).code(), Exit::input_output);
     EXPECT_EQ(read_file(folder / "mine.txt"), "mine");
     EXPECT_NO_THROW(require_fresh_folder(folder / "new/one"));
     EXPECT_FALSE(fs::exists(folder / "new"));
