@@ -33,4 +33,7 @@ struct Adapter {
 
 std::span<const Adapter> adapters();
 
+/// The job as this renderer is asked it: `samples_per_pixel` are those of a renderer that follows every branch.
+RenderJob for_renderer(const Adapter &adapter, RenderJob job);
+
 } // namespace threefold

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The program as people and scripts meet it: exit codes, one-line errors, nothing half-written.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -328,14 +329,37 @@ TEST(Cli, ARendererThatHangsIsStoppedAndExit124) {
         124);
 }
 
-TEST(Cli, ExportsAreCompleteFoldersAndPrintTheirCommand) {
+TEST(Cli, ExportsAreCompleteFoldersWithWhatTheyLose) {
     const tests::TemporaryFolder folder;
-    const Answer povray = run(folder, "export hollow --to povray -o p");
-    EXPECT_EQ(povray.exit_code, 0);
-    EXPECT_THAT(povray.out, HasSubstr("povray"));
-    EXPECT_TRUE(fs::exists(folder / "p/scene.pov"));
-    EXPECT_EQ(run(folder, "export hollow --to blender -o b").exit_code, 0);
-    EXPECT_TRUE(fs::exists(folder / "b/scene.py"));
+    const Answer povray = run(folder, "export hollow --to povray --strict -o p");
+    EXPECT_EQ(povray.exit_code, 0) << povray.err;
+    EXPECT_THAT(povray.out, HasSubstr("p/scene.pov\n"));
+    EXPECT_THAT(povray.err, HasSubstr("nothing is lost"));
+    for (const char *name : {"p/scene.pov", "p/scene.ini", "p/README.txt", "p/LOSSES.txt"})
+        EXPECT_TRUE(fs::exists(folder / name)) << name;
+
+    expect_one_clear_line(run(folder, "export hollow --to obj --strict -o o"), 65, "OBJ cannot say all of hollow");
+    EXPECT_FALSE(fs::exists(folder / "o"));
+    const Answer obj = run(folder, "export hollow --set orb.wall_mm=2 --preset published --to obj -o o");
+    EXPECT_EQ(obj.exit_code, 0) << obj.err;
+    EXPECT_THAT(obj.err, HasSubstr("  The camera."));
+    EXPECT_THAT(read_file(folder / "o/LOSSES.txt"), HasSubstr("- The camera."));
+    const std::string readme = read_file(folder / "o/README.txt");
+    EXPECT_THAT(readme, HasSubstr("orb.wall_mm = 2\n"));
+    EXPECT_THAT(readme, HasSubstr("threefold export hollow --preset published --set orb.wall_mm=2 --to obj"));
+
+    expect_one_clear_line(run(folder, "export hollow --to povray -o o"), 74, "not empty");
+    expect_one_clear_line(run(folder, "export hollow --to obj --onto card -o n"), 64, "--onto");
+    expect_one_clear_line(run(folder, "export salvator --set robe.relief_resolution=20 --to stmap -o n"), 64, "robe");
+    EXPECT_FALSE(fs::exists(folder / "n"));
+}
+
+TEST(Cli, ExportsThatNeedBlenderSayWhenItIsMissing) {
+    const tests::TemporaryFolder folder;
+    for (const char *format : {"blender", "glb"})
+        expect_one_clear_line(run(folder, fmt::format("export hollow --to {} -o x", format), "PATH=/nowhere"), 69,
+                              "Blender is not installed");
+    EXPECT_FALSE(fs::exists(folder / "x"));
 }
 
 } // namespace

@@ -10,7 +10,6 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "exporter/process/child.h"
 #include "exporter/run.h"
 #include "scenes/camera.h"
 #include "scenes/error.h"
@@ -396,31 +395,6 @@ TEST_F(CyclesRenderer, says_why_a_script_failed) {
     } catch (const Error &error) {
         EXPECT_NE(std::string(error.what()).find("a mesh file is too short"), std::string::npos) << error.what();
     }
-}
-
-TEST_F(CyclesRenderer, saves_the_scene_as_a_file_of_blenders) {
-    RenderJob job = job_of(small_camera(8, 8), {{"orb", GlassShell{}}, {"robe", card_at(200, 200)}});
-    job.surface_tolerance_mm = 1;
-    exported = compile_cycles(job);
-    write_exported(exported, folder.path());
-    ChildRequest request;
-    request.program = installed->program;
-    request.folder = folder.path();
-    request.arguments = exported.arguments;
-    for (const char *extra : {"--", "--no-render", "--save", "scene.blend"}) request.arguments.emplace_back(extra);
-    ASSERT_EQ(run_child(request).describe(), "exit code 0");
-    EXPECT_FALSE(std::filesystem::exists(folder / exported.outputs.front()));
-
-    request.arguments = {"-b",
-                         "--python-exit-code",
-                         "3",
-                         folder / "scene.blend",
-                         "--python-expr",
-                         "import bpy; names = set(bpy.data.objects.keys()); "
-                         "assert {'orb', 'orb.001', 'robe', 'Camera'} <= names, names; "
-                         "assert len(bpy.data.collections['Orb'].objects) == 2; "
-                         "assert bpy.context.scene.camera is not None"};
-    EXPECT_EQ(run_child(request).describe(), "exit code 0");
 }
 
 } // namespace

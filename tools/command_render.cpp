@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// export and render: a scene as another program's input, and as a picture.
+// render: a scene as a picture.
 #include <algorithm>
 #include <cctype>
 #include <chrono>
@@ -16,19 +16,7 @@
 
 namespace threefold {
 
-namespace {
-
 namespace fs = std::filesystem;
-
-const Adapter &adapter_for(const std::string &to) {
-    // People say which program they want to open; the adapter is named by the renderer inside.
-    const std::string name = to == "blender" ? "cycles" : to;
-    for (const Adapter &adapter : adapters())
-        if (adapter.name == name) return adapter;
-    throw Error(Exit::usage, unknown_name("export format", to, {"povray", "blender"}));
-}
-
-} // namespace
 
 TracerSettings tracer_settings(const std::string &precision, const std::string &transport) {
     TracerSettings settings;
@@ -43,28 +31,9 @@ TracerSettings tracer_settings(const std::string &precision, const std::string &
     return settings;
 }
 
-Exit command_export(const Shop &shop, const ExportRequest &request) {
-    const Adapter &adapter = adapter_for(request.to);
-    RenderJob job;
-    job.scene = scene_of(shop, request.scene);
-    job.samples_per_pixel = request.samples_per_pixel;
-    job.replicates = {{request.seed, {}}};
-    job.threads = shop.threads;
-    const Exported exported = adapter.compile(job);
-    write_exported(exported, request.folder);
-    std::string command = fmt::format("cd {} && {}", shell_quoted(request.folder.string()), adapter.program);
-    for (const std::string &argument : exported.arguments) command += " " + shell_quoted(argument);
-    if (shop.verbosity >= 0)
-        say(fmt::format("wrote {} file{} to {}; to render:", exported.files.size(),
-                        exported.files.size() == 1 ? "" : "s", request.folder.string()));
-    fmt::print("{}\n", command);
-    return Exit::holds;
-}
-
 Exit command_render(const Shop &shop, const RenderRequest &request) {
     const Scene scene = scene_of(shop, request.scene);
-    const std::string label =
-        request.scene.mitsuba.empty() ? request.scene.name : fs::path(request.scene.mitsuba).stem().string();
+    const std::string label = scene_label(request.scene);
     const fs::path output = request.output.value_or(label + ".exr");
     std::string extension = output.extension().string();
     std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });

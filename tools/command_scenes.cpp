@@ -33,6 +33,10 @@ Parameters parameters_of(const SceneRecipe &recipe, const SceneRequest &request)
     return values;
 }
 
+std::string scene_label(const SceneRequest &request) {
+    return request.mitsuba.empty() ? request.name : std::filesystem::path(request.mitsuba).stem().string();
+}
+
 SceneRecipe recipe_of(const Shop &shop, const SceneRequest &request) {
     if (request.mitsuba.empty() == request.name.empty())
         throw Error(Exit::usage,

@@ -35,6 +35,8 @@ struct SceneRequest {
     std::string mitsuba{}; ///< a file to read the scene from, in place of `name`; or empty
 };
 
+/// The scene's name, or that of the user's file.
+std::string scene_label(const SceneRequest &request);
 /// Of the catalogue, or of the user's file.
 SceneRecipe recipe_of(const Shop &shop, const SceneRequest &request);
 
@@ -52,8 +54,11 @@ struct ExportRequest {
     SceneRequest scene;
     std::string to;
     std::filesystem::path folder;
+    std::string onto;    ///< stmap: the surface's name; empty: the only one
+    bool strict = false; ///< an export that loses something fails
     int samples_per_pixel = 16;
     std::uint64_t seed = 1;
+    double time_limit_s = 600;
 };
 Exit command_export(const Shop &shop, const ExportRequest &request);
 

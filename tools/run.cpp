@@ -10,6 +10,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "exporter/export/format.h"
 #include "exporter/process/child.h"
 #include "tools/command_optics.h"
 #include "tools/commands.h"
@@ -56,6 +57,30 @@ void add_scene_options(CLI::App &command, SceneRequest &scene) {
                     "Change a parameter: name=value (see: threefold show SCENE); repeatable")
         ->allow_extra_args(false);
     command.add_option("--size", scene.size, "Picture size in pixels, WIDTHxHEIGHT");
+}
+
+void add_export_options(CLI::App &command, ExportRequest &request) {
+    add_scene_options(command, request.scene);
+    std::string formats = "Format:";
+    for (const ExportFormatEntry &entry : export_formats())
+        formats += fmt::format("\n  {}: {}", entry.name, entry.summary);
+    command.add_option("--to", request.to, formats)->required();
+    command.add_option("-o,--output", request.folder, "Folder for the files: new, or empty")->required();
+    command.add_flag("--strict", request.strict,
+                     "Fail (65) rather than lose anything; without it LOSSES.txt says what is lost");
+    command.add_option("--onto", request.onto, "stmap: name of the surface to map, where there are several");
+    command.add_option("--spp", request.samples_per_pixel, "blender, povray: samples per pixel, as render takes them")
+        ->capture_default_str()
+        ->check(CLI::PositiveNumber);
+    command.add_option("--seed", request.seed, "blender: seed")->capture_default_str();
+    command.add_option("--timeout", request.time_limit_s, "blender, glb: seconds until Blender is given up")
+        ->capture_default_str()
+        ->check(CLI::PositiveNumber);
+    command.footer("For example:\n"
+                   "  threefold export hollow --to blender -o hollow-blend    change the wall in the orb's modifier\n"
+                   "  threefold export hollow --set orb.wall_mm=2.72 --to glb -o glb\n"
+                   "  threefold export salvator --to stmap --onto robe --size 1024x1024 -o map\n\n"
+                   "LOSSES.txt in the folder lists what the format cannot say; README.txt how the files were made.");
 }
 
 void add_power_options(CLI::App &command, PowerCommand &power) {
@@ -138,14 +163,8 @@ int run(int argc, char **argv, const std::vector<SceneRecipe> &scenes, const std
     add_common(doctor);
 
     ExportRequest export_request;
-    CLI::App &export_ = *app.add_subcommand("export", "A scene as another program's input");
-    add_scene_options(export_, export_request.scene);
-    export_.add_option("--to", export_request.to, "povray or blender")->required();
-    export_.add_option("-o,--output", export_request.folder, "Folder for the files")->required();
-    export_.add_option("--spp", export_request.samples_per_pixel, "Samples per pixel")
-        ->capture_default_str()
-        ->check(CLI::PositiveNumber);
-    export_.add_option("--seed", export_request.seed, "Seed")->capture_default_str();
+    CLI::App &export_ = *app.add_subcommand("export", "A scene as files for another program, in a new folder");
+    add_export_options(export_, export_request);
     add_common(export_);
 
     RenderRequest render_request;

@@ -39,8 +39,8 @@ std::string mesh_bytes(std::span<const Vec3> points, std::span<const glm::uvec3>
 /// Objects as JSON; files are made on the way, each once.
 class ObjectWriter {
 public:
-    ObjectWriter(const RenderJob &job, const ToBlender &to_blender, CyclesObjects &made)
-        : job_(job), to_blender_(to_blender), made_(made) {}
+    ObjectWriter(const RenderJob &job, const ToBlender &to_blender, TextureEncoding encoding, CyclesObjects &made)
+        : job_(job), to_blender_(to_blender), encoding_(encoding), made_(made) {}
 
     Json write(const Object &object) {
         return std::visit(
@@ -170,13 +170,24 @@ private:
         auto &name = textures_[texture.get()];
         if (name.empty()) {
             name = fmt::format("texture_{}.png", textures_.size());
-            made_.files.push_back({name, encode_png16(*texture, 0)});
+            made_.files.push_back({name, encode(*texture)});
         }
         return name;
     }
 
+    std::string encode(const Texture &texture) const {
+        switch (encoding_) {
+        case TextureEncoding::linear16:
+            return encode_png16(texture, 0);
+        case TextureEncoding::srgb8:
+            return encode_png_srgb(texture);
+        }
+        return {};
+    }
+
     const RenderJob &job_;
     const ToBlender &to_blender_;
+    TextureEncoding encoding_;
     CyclesObjects &made_;
     std::map<int, Json> spheres_;
     std::map<const Texture *, std::string> textures_;
@@ -185,9 +196,9 @@ private:
 
 } // namespace
 
-CyclesObjects describe_objects(const RenderJob &job, const ToBlender &to_blender) {
+CyclesObjects describe_objects(const RenderJob &job, const ToBlender &to_blender, TextureEncoding encoding) {
     CyclesObjects made;
-    ObjectWriter writer(job, to_blender, made);
+    ObjectWriter writer(job, to_blender, encoding, made);
     for (const Object &object : job.scene.objects) made.list.push_back(writer.write(object));
     return made;
 }

@@ -17,6 +17,10 @@ struct CyclesObjects {
     double surface_mm = 0; ///< greatest distance of a glass mesh from its sphere
 };
 
-CyclesObjects describe_objects(const RenderJob &job, const ToBlender &to_blender);
+/// `linear16`: exact. `srgb8`: for formats whose textures are that.
+enum class TextureEncoding { linear16, srgb8 };
+
+CyclesObjects describe_objects(const RenderJob &job, const ToBlender &to_blender,
+                               TextureEncoding encoding = TextureEncoding::linear16);
 
 } // namespace threefold

@@ -9,12 +9,11 @@ constexpr std::string_view python = R"python(# SPDX-License-Identifier: MIT
 # A scene made by Threefold for Blender's Cycles, 3.4 or later. Run it in the folder that holds it:
 #
 #   blender -b --factory-startup --disable-autoexec -noaudio --python-exit-code 3 -P scene.py
-#   ... -P scene.py -- --no-render --save scene.blend      build only, and keep the scene as a file
 #
 # First come the functions that build a scene, then the scene itself, as data. One Blender unit is `unit_mm`
 # millimetres; the orb's centre is the origin, because Cycles computes in single precision.
-import argparse
 import array
+import functools
 import json
 import math
 import os
@@ -125,9 +124,12 @@ class Nodes:
     """A node tree, emptied, with a short way to add and link nodes."""
 
     def __init__(self, owner):
-        if owner.node_tree is None:  # always there since 5.0, and the switch is to go
-            owner.use_nodes = True
-        self.tree = owner.node_tree
+        if isinstance(owner, bpy.types.NodeTree):
+            self.tree = owner
+        else:
+            if owner.node_tree is None:  # always there since 5.0, and the switch is to go
+                owner.use_nodes = True
+            self.tree = owner.node_tree
         self.tree.nodes.clear()
 
     def add(self, kind, *inputs, **settings):
@@ -173,26 +175,29 @@ def new_material(name):
     return material
 
 
-def glass_material(glass, side, shadow):
+def glass_constants(nodes, glass):
+    """Centre, index and tint of a glass, as inputs of its nodes."""
+    return tuple(glass["centre"]), glass["index"], colour([glass["transmittance"]] * 3)
+
+
+def glass_material(glass, side, shadow, values=glass_constants, name="Glass"):
     """One boundary of glass: `side` is 1 when its faces look out of the sphere, -1 when they look to the centre.
 
     `shadow` is the share of light that a shadow ray keeps at this boundary, None where no shadow ray sees it.
     """
-    material = new_material("Glass")
+    material = new_material(name)
     nodes = Nodes(material)
+    centre, index, tint = values(nodes, glass)
     # The normal of the sphere itself at the point that was hit, on the side the ray comes from: with the mesh's own
     # normals the picture shows the triangles (1e-3 of a radius at 80,000 faces).
     geometry = nodes.add("ShaderNodeNewGeometry")
-    outward = nodes.add("ShaderNodeVectorMath", geometry.outputs["Position"], tuple(glass["centre"]),
-                        operation="SUBTRACT")
+    outward = nodes.add("ShaderNodeVectorMath", geometry.outputs["Position"], centre, operation="SUBTRACT")
     unit = nodes.add("ShaderNodeVectorMath", outward.outputs["Vector"], operation="NORMALIZE")
     facing = nodes.add("ShaderNodeMath", geometry.outputs["Backfacing"], -2.0 * side, float(side),
                        operation="MULTIPLY_ADD")
     scaled = nodes.add("ShaderNodeVectorMath", unit.outputs["Vector"], operation="SCALE")
     normal = nodes.set(scaled, Scale=facing.outputs[0])
 
-    index = glass["index"]
-    tint = colour([glass["transmittance"]] * 3)
     fresnel = nodes.set(nodes.add("ShaderNodeFresnel"), IOR=index, Normal=normal)
     if glass["antireflective"]:  # all light goes on below the critical angle, all comes back above it
         fresnel = nodes.add("ShaderNodeMath", fresnel, 0.99999, operation="GREATER_THAN").outputs[0]
@@ -208,7 +213,7 @@ def glass_material(glass, side, shadow):
         light = nodes.add("ShaderNodeMixShader", path.outputs["Is Shadow Ray"], light, through.outputs[0]).outputs[0]
     nodes.add("ShaderNodeOutputMaterial", light)
     for node in nodes.tree.nodes:
-        if node.type in ("FRESNEL", "BSDF_REFRACTION"):
+        if node.type in ("FRESNEL", "BSDF_REFRACTION") and not node.inputs["IOR"].is_linked:
             check(same(node.inputs["IOR"].default_value, float(index)), "the index of a glass")
     return material
 
@@ -268,7 +273,7 @@ def add_glass(thing):
         keeps = math.sqrt(rule["transmittance"]) if seen and rule["rule"] == "constant" else None
         ball = add_mesh(thing["name"], placed, turned, [], 3, glass_material(thing, side, keeps), "Orb")
         put(ball, visible_shadow=seen)
-        yield ball, radius
+        yield functools.partial(check_sphere, ball, radius, thing)
 
 
 def check_sphere(ball, radius, thing):
@@ -399,7 +404,11 @@ def set_render(scene, scene_data):
     image = scene.render.image_settings
     put_where_known(image, media_type="IMAGE")  # since 5.0, and first
     put(image, file_format="OPEN_EXR", color_mode="RGB", color_depth="32", exr_codec="ZIP")
-    put(scene.view_settings, view_transform="Raw", look="None", exposure=0.0, gamma=1.0)
+
+
+def set_view(scene, transform):
+    """How a picture is shown; one that is stored as EXR holds radiance whatever is said here."""
+    put(scene.view_settings, view_transform=transform, look="None", exposure=0.0, gamma=1.0)
 
 
 def render(scene, replicates):
@@ -418,19 +427,6 @@ def render(scene, replicates):
     print("threefold done", flush=True)
 
 
-def save(scene, scene_data, path):
-    scene.unit_settings.system = "METRIC"
-    scene.unit_settings.scale_length = scene_data["unit_mm"] / 1000
-    shift = scene_data["replicates"][0]["shift"]
-    scene.camera.data.shift_x, scene.camera.data.shift_y = shift
-    for image in bpy.data.images:
-        if image.source == "FILE":
-            image.pack()
-    notes = bpy.data.texts.new("Threefold")
-    notes.write("Made by Threefold.\nOne unit is %r mm.\n" % scene_data["unit_mm"])
-    bpy.ops.wm.save_as_mainfile(filepath=os.path.abspath(path))
-
-
 def remove_factory_scene():
     for kind in ("objects", "meshes", "lights", "cameras", "materials", "worlds", "collections"):
         things = getattr(bpy.data, kind)
@@ -438,20 +434,16 @@ def remove_factory_scene():
             things.remove(thing)
 
 
-def main(scene_data):
-    options = argparse.ArgumentParser(prog="scene.py")
-    options.add_argument("--save", metavar="FILE.blend", help="keep the scene, with its textures")
-    options.add_argument("--no-render", action="store_true")
-    options = options.parse_args(sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else [])
-
+def build(scene_data, glass_adder):
+    """The whole scene; `glass_adder` adds a thing of glass, and gives what it wants checked once all is there."""
     remove_factory_scene()
     scene = bpy.context.scene
     set_render(scene, scene_data)
     set_world(scene, scene_data["environment"])
-    spheres = []
+    checks = []
     for thing in scene_data["objects"]:
         if thing["kind"] == "glass":
-            spheres += [(ball, radius, thing) for ball, radius in add_glass(thing)]
+            checks += glass_adder(thing)
         else:
             add_surface(thing)
     for light in scene_data["lights"]:
@@ -462,13 +454,16 @@ def main(scene_data):
 
     bpy.context.view_layer.update()
     check(eye.matrix_world == placed, "the camera's place")
-    for sphere in spheres:
-        check_sphere(*sphere)
+    for good in checks:
+        good()
     check_settings()
-    if options.save:
-        save(scene, scene_data, options.save)
-    if not options.no_render:
-        render(scene, scene_data["replicates"])
+    return scene
+
+
+def main(scene_data):
+    scene = build(scene_data, add_glass)
+    set_view(scene, "Raw")
+    render(scene, scene_data["replicates"])
 )python";
 
 } // namespace

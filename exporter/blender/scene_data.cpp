@@ -182,9 +182,10 @@ std::string text(const Json &json) {
     return ascii;
 }
 
-/// One line for each member, and for each element of a list of objects.
-std::string python(const Json &data) {
-    std::string out = "SCENE = json.loads(r'''{";
+} // namespace
+
+std::string to_python(std::string_view name, const nlohmann::ordered_json &data) {
+    std::string out = fmt::format("{} = json.loads(r'''{{", name);
     const char *comma = "\n";
     for (const auto &[key, value] : data.items()) {
         out += fmt::format("{} {}: ", comma, text(key));
@@ -200,10 +201,8 @@ std::string python(const Json &data) {
             out += text(value);
         }
     }
-    return out + "\n}''')\n\nmain(SCENE)\n";
+    return out + "\n}''')\n";
 }
-
-} // namespace
 
 CyclesScene describe_for_cycles(const RenderJob &job) {
     const Scene &scene = job.scene;
@@ -221,7 +220,7 @@ CyclesScene describe_for_cycles(const RenderJob &job) {
     made.files = std::move(objects.files);
     made.accuracy.surface_mm = objects.surface_mm;
     if (required.glass) made.accuracy.lost_paths = lost_at_edges;
-    made.python = python({{"name", scene.name},
+    made.data = {{"name", scene.name},
                           {"unit_mm", unit_mm},
                           {"origin_mm", to_json(frame.origin_mm)},
                           {"camera", write_camera(scene.camera, frame, to_blender)},
@@ -229,7 +228,7 @@ CyclesScene describe_for_cycles(const RenderJob &job) {
                           {"environment", to_json(scene.environment ? scene.environment->radiance : Rgb(0))},
                           {"lights", required.direct_light ? write_lights(lights_on_diffuse(scene)) : Json::array()},
                           {"objects", objects.list},
-                          {"replicates", write_replicates(job, made)}});
+                          {"replicates", write_replicates(job, made)}};
 
     made.accuracy.random_branches = is_random(required);
     made.accuracy.radiance_step = required.greatest_radiance * float_epsilon / 2;

@@ -223,6 +223,14 @@ std::string encode_png16(const Texture &texture, int border_texels) {
     return encode(".png", spec, OIIO::TypeDesc::UINT16, samples.data());
 }
 
+std::string encode_png_srgb(const Texture &texture) {
+    Image image(texture.width, texture.height);
+    auto sample = texture.rgb.begin();
+    for (Rgb &pixel : image.pixels)
+        for (int c = 0; c < 3; ++c) pixel[c] = *sample++ / 65535.0;
+    return encode_png8(image, 1, {});
+}
+
 Image average_blocks(const Image &image, int factor) {
     if (factor < 1 || image.width % factor != 0 || image.height % factor != 0)
         throw Error(Exit::internal,

@@ -34,6 +34,8 @@ void write_image(const std::filesystem::path &path, const Image &image,
 std::string encode_png_preview(const Image &image, double white = 1);
 /// Bytes of a 16-bit linear PNG with just the samples of the texture; `border_texels` repeats the edges outwards.
 std::string encode_png16(const Texture &texture, int border_texels = 0);
+/// Bytes of an 8-bit sRGB PNG of it, for programs that take all textures to be that.
+std::string encode_png_srgb(const Texture &texture);
 
 /// Mean of every `factor` x `factor` block; both sides of the image are multiples of `factor`.
 Image average_blocks(const Image &image, int factor);

@@ -192,9 +192,7 @@ Rendered take_pictures(const Witness &witness, const RenderJob &job, const Rende
 Rendered render(const Witness &witness, RenderJob job, const RenderOptions &options) {
     validate(job.scene);
     if (witness.pictures) return take_pictures(witness, job, options);
-    const Needs needed = needs(job.scene);
-    if (witness.adapter && job.sampling == Sampling::box && (needed.ray_tree || needed.many_lights))
-        job.samples_per_pixel *= witness.adapter->sample_factor;
+    if (witness.adapter) job = for_renderer(*witness.adapter, std::move(job));
     if (!witness.problem.empty()) throw Error(Exit::input_output, witness.problem);
     if (!witness.present())
         throw Error(Exit::renderer_missing, fmt::format("{} is not installed", witness.title),
