@@ -84,7 +84,8 @@ void meet_eight_at_once(benchmark::State &state) {
 }
 BENCHMARK(meet_eight_at_once);
 
-/// Items are rays that leave the orb, each with its origin and direction in space.
+/// Items are rays that leave the orb, each with its origin and direction in space; eight at once up to where each meets
+/// the card.
 void tree_one_by_one(benchmark::State &state) {
     const auto all = packets(scene_of(1.36, 64));
     TreeScratch<double> scratch;
@@ -109,6 +110,8 @@ void tree_one_by_one(benchmark::State &state) {
 BENCHMARK(tree_one_by_one);
 
 void tree_eight_at_once(benchmark::State &state) {
+    const std::vector<Rectangle> card{Rectangle(1, std::get<Quad>(scene_of(1.36, 64).objects[1].shape))};
+    RectangleHits hits;
     const auto all = packets(scene_of(1.36, 64));
     PacketScratch scratch;
     EntryPacket entry;
@@ -117,7 +120,10 @@ void tree_eight_at_once(benchmark::State &state) {
         for (const RayPacket &rays : all) {
             intersect(shell, rays, entry);
             if (!trace_packet(shell, rays, entry, entry.hits, 1e-3, 0, scratch)) continue;
-            benchmark::DoNotOptimize(scratch.exits.data());
+            for (std::size_t i = 0; i < scratch.count; ++i) {
+                meet_rectangles(card, scratch.exits[i].origin, scratch.exits[i].direction, hits);
+                benchmark::DoNotOptimize(hits);
+            }
             exits += static_cast<std::int64_t>(scratch.count) * std::popcount(entry.hits);
         }
     state.SetItemsProcessed(exits);
@@ -125,7 +131,7 @@ void tree_eight_at_once(benchmark::State &state) {
 BENCHMARK(tree_eight_at_once);
 
 #ifdef THREEFOLD_BENCH_EMBREE
-/// The camera's rays, asked of bare Embree: two spheres and a rectangle of its own, in single precision.
+/// The rays that leave the orb, asked of bare Embree: two spheres and a rectangle of its own, in single precision.
 class EmbreeOrb {
 public:
     EmbreeOrb() : device_(rtcNewDevice("threads=1")), scene_(rtcNewScene(device_)) {
@@ -166,66 +172,118 @@ private:
     RTCScene scene_;
 };
 
-void put(RTCRayHit8 &r, const LaneVectors &o, const LaneVectors &d, int l) {
-    r.ray.org_x[l] = static_cast<float>(o.x[l]);
-    r.ray.org_y[l] = static_cast<float>(o.y[l]);
-    r.ray.org_z[l] = static_cast<float>(o.z[l]);
-    r.ray.dir_x[l] = static_cast<float>(d.x[l]);
-    r.ray.dir_y[l] = static_cast<float>(d.y[l]);
-    r.ray.dir_z[l] = static_cast<float>(d.z[l]);
-    r.ray.tnear[l] = 1e-2f;
-    r.ray.tfar[l] = 1e9f;
-    r.ray.mask[l] = ~0u;
-    r.ray.time[l] = 0;
-    r.ray.flags[l] = 0;
-    r.hit.geomID[l] = RTC_INVALID_GEOMETRY_ID;
+/// All rays of the scene's trees beyond the camera's: those that leave the orb, eight by eight as they leave.
+std::vector<RayPacket> leaving_rays() {
+    std::vector<RayPacket> leaving;
+    PacketScratch scratch;
+    EntryPacket entry;
+    for (const RayPacket &rays : packets(scene_of(1.36, 64))) {
+        intersect(shell, rays, entry);
+        if (entry.hits != (1u << lanes) - 1 || !trace_packet(shell, rays, entry, entry.hits, 1e-3, 0, scratch))
+            continue;
+        for (std::size_t i = 0; i < scratch.count; ++i)
+            leaving.push_back({scratch.exits[i].origin, scratch.exits[i].direction});
+    }
+    return leaving;
 }
 
+template <class Hit>
+void put(Hit &r, const RayPacket &rays, int from, int to) {
+    r.ray.org_x[to] = static_cast<float>(rays.origin.x[from]);
+    r.ray.org_y[to] = static_cast<float>(rays.origin.y[from]);
+    r.ray.org_z[to] = static_cast<float>(rays.origin.z[from]);
+    r.ray.dir_x[to] = static_cast<float>(rays.direction.x[from]);
+    r.ray.dir_y[to] = static_cast<float>(rays.direction.y[from]);
+    r.ray.dir_z[to] = static_cast<float>(rays.direction.z[from]);
+    r.ray.tnear[to] = 1e-2f;
+    r.ray.tfar[to] = 1e9f;
+    r.ray.mask[to] = ~0u;
+    r.ray.time[to] = 0;
+    r.ray.flags[to] = 0;
+    r.hit.geomID[to] = RTC_INVALID_GEOMETRY_ID;
+    r.hit.instID[0][to] = RTC_INVALID_GEOMETRY_ID;
+}
+
+RTCRayHit single(const RayPacket &rays, int l) {
+    RTCRayHit r{};
+    r.ray.org_x = static_cast<float>(rays.origin.x[l]);
+    r.ray.org_y = static_cast<float>(rays.origin.y[l]);
+    r.ray.org_z = static_cast<float>(rays.origin.z[l]);
+    r.ray.dir_x = static_cast<float>(rays.direction.x[l]);
+    r.ray.dir_y = static_cast<float>(rays.direction.y[l]);
+    r.ray.dir_z = static_cast<float>(rays.direction.z[l]);
+    r.ray.tnear = 1e-2f;
+    r.ray.tfar = 1e9f;
+    r.ray.mask = ~0u;
+    r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    return r;
+}
+
+RTCIntersectContext coherent() {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    return context;
+}
+
+/// Embree's calls change their rays: these are made ready outside the time that counts, and copied inside it.
 void embree_one_by_one(benchmark::State &state) {
     const EmbreeOrb orb;
-    const auto all = packets(scene_of(1.36, 64));
+    std::vector<RTCRayHit> ready;
+    for (const RayPacket &rays : leaving_rays())
+        for (int l = 0; l < lanes; ++l) ready.push_back(single(rays, l));
     for (auto _ : state)
-        for (const RayPacket &rays : all)
-            for (int l = 0; l < lanes; ++l) {
-                RTCRayHit8 eight;
-                put(eight, rays.origin, rays.direction, l);
-                RTCRayHit r{};
-                r.ray.org_x = eight.ray.org_x[l];
-                r.ray.org_y = eight.ray.org_y[l];
-                r.ray.org_z = eight.ray.org_z[l];
-                r.ray.dir_x = eight.ray.dir_x[l];
-                r.ray.dir_y = eight.ray.dir_y[l];
-                r.ray.dir_z = eight.ray.dir_z[l];
-                r.ray.tfar = 1e9f;
-                r.ray.mask = ~0u;
-                r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-                RTCIntersectContext context;
-                rtcInitIntersectContext(&context);
-                rtcIntersect1(orb.get(), &context, &r);
-                benchmark::DoNotOptimize(r);
-            }
-    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(all.size()) * lanes);
+        for (const RTCRayHit &ray : ready) {
+            RTCRayHit r = ray;
+            RTCIntersectContext context;
+            rtcInitIntersectContext(&context);
+            rtcIntersect1(orb.get(), &context, &r);
+            benchmark::DoNotOptimize(r);
+        }
+    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(ready.size()));
 }
 BENCHMARK(embree_one_by_one);
 
-void embree_eight_at_once(benchmark::State &state) {
+void embree_stream(benchmark::State &state) {
     const EmbreeOrb orb;
-    const auto all = packets(scene_of(1.36, 64));
-    alignas(32) int valid[8];
-    std::fill(std::begin(valid), std::end(valid), -1);
+    std::vector<RTCRayHit> ready, now;
+    for (const RayPacket &rays : leaving_rays())
+        for (int l = 0; l < lanes; ++l) ready.push_back(single(rays, l));
+    constexpr std::size_t stream = 128;
+    ready.resize(ready.size() / stream * stream);
+    now.resize(stream);
     for (auto _ : state)
-        for (const RayPacket &rays : all) {
-            alignas(32) RTCRayHit8 eight;
-            for (int l = 0; l < lanes; ++l) put(eight, rays.origin, rays.direction, l);
-            RTCIntersectContext context;
-            rtcInitIntersectContext(&context);
-            context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-            rtcIntersect8(valid, orb.get(), &context, &eight);
-            benchmark::DoNotOptimize(eight);
+        for (std::size_t first = 0; first < ready.size(); first += stream) {
+            std::copy_n(ready.begin() + static_cast<std::ptrdiff_t>(first), stream, now.begin());
+            RTCIntersectContext context = coherent();
+            rtcIntersect1M(orb.get(), &context, now.data(), stream, sizeof(RTCRayHit));
+            benchmark::DoNotOptimize(now.data());
         }
-    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(all.size()) * lanes);
+    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(ready.size()));
 }
-BENCHMARK(embree_eight_at_once);
+BENCHMARK(embree_stream);
+
+template <class Hit, int width, auto shoot>
+void embree_packet(benchmark::State &state) {
+    const EmbreeOrb orb;
+    alignas(64) int valid[16];
+    std::fill(std::begin(valid), std::end(valid), -1);
+    const auto leaving = leaving_rays();
+    std::vector<Hit> ready(leaving.size() * lanes / width);
+    for (std::size_t i = 0; i < ready.size() * width; ++i)
+        put(ready[i / width], leaving[i / lanes], static_cast<int>(i % lanes), static_cast<int>(i % width));
+    for (auto _ : state)
+        for (const Hit &rays : ready) {
+            Hit r = rays;
+            RTCIntersectContext context = coherent();
+            shoot(valid, orb.get(), &context, &r);
+            benchmark::DoNotOptimize(r);
+        }
+    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(ready.size()) * width);
+}
+BENCHMARK(embree_packet<RTCRayHit4, 4, rtcIntersect4>)->Name("embree_four_at_once");
+BENCHMARK(embree_packet<RTCRayHit8, 8, rtcIntersect8>)->Name("embree_eight_at_once");
+BENCHMARK(embree_packet<RTCRayHit16, 16, rtcIntersect16>)->Name("embree_sixteen_at_once");
 #endif
 
 /// Items are samples; linear in pixels if the rate stays.
