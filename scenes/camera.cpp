@@ -24,21 +24,24 @@ double film_half_width(const Camera &camera) {
     return 0;
 }
 
-Ray camera_ray(const Camera &camera, Vec2 image_px) {
-    const auto [right, up, forward] = camera_frame(camera);
-    const Vec2 corner = camera.crop ? Vec2(camera.crop->x_px, camera.crop->y_px) : Vec2(0);
-    const Vec2 film = corner + image_px;
-    const double pixel = 2 * film_half_width(camera) / camera.width_px;
-    const double x = (film.x - camera.width_px / 2.0) * pixel;
-    const double y = (camera.height_px / 2.0 - film.y) * pixel;
-    switch (camera.projection) {
+Film::Film(const Camera &camera)
+    : frame_(camera_frame(camera)), projection_(camera.projection), eye_mm_(camera.eye_mm),
+      corner_(camera.crop ? Vec2(camera.crop->x_px, camera.crop->y_px) : Vec2(0)),
+      middle_(camera.width_px / 2.0, camera.height_px / 2.0), pixel_(2 * film_half_width(camera) / camera.width_px) {}
+
+Ray Film::ray(Vec2 image_px) const {
+    const Vec2 film = corner_ + image_px;
+    const double x = (film.x - middle_.x) * pixel_, y = (middle_.y - film.y) * pixel_;
+    switch (projection_) {
     case Projection::perspective:
-        return {camera.eye_mm, glm::normalize(forward + x * right + y * up)};
+        return {eye_mm_, glm::normalize(frame_.forward + x * frame_.right + y * frame_.up)};
     case Projection::orthographic:
-        return {camera.eye_mm + x * right + y * up, forward};
+        return {eye_mm_ + x * frame_.right + y * frame_.up, frame_.forward};
     }
     return {};
 }
+
+Ray camera_ray(const Camera &camera, Vec2 image_px) { return Film(camera).ray(image_px); }
 
 Vec2 image_position(const Camera &camera, const Ray &ray) {
     const auto [right, up, forward] = camera_frame(camera);

@@ -21,6 +21,27 @@ CameraFrame camera_frame(const Camera &camera);
 /// The ray through a position on the image (the crop when there is one) in pixels, film offset not yet added.
 Ray camera_ray(const Camera &camera, Vec2 image_px);
 
+/// The same for many rays of one camera.
+class Film {
+public:
+    explicit Film(const Camera &camera);
+    Ray ray(Vec2 image_px) const;
+    /// Side of a pixel at unit distance (perspective) or in mm (orthographic).
+    double pixel() const { return pixel_; }
+    const CameraFrame &frame() const { return frame_; }
+    Vec3 eye_mm() const { return eye_mm_; }
+    Vec2 corner_px() const { return corner_; } ///< of the image on the full film
+    Vec2 middle_px() const { return middle_; } ///< of the full film
+    bool is_perspective() const { return projection_ == Projection::perspective; }
+
+private:
+    CameraFrame frame_;
+    Projection projection_;
+    Vec3 eye_mm_;
+    Vec2 corner_, middle_; ///< in pixels of the full film
+    double pixel_;
+};
+
 /// The inverse: where on the image a ray of this camera passes. For a ray that does not come from the camera only its
 /// direction (perspective) or only its origin (orthographic) counts.
 Vec2 image_position(const Camera &camera, const Ray &ray);

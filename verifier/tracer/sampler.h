@@ -36,6 +36,18 @@ constexpr std::uint32_t owen_scramble(std::uint32_t x, std::uint32_t seed) {
     return reverse_bits(x);
 }
 
+/// Sobol's second dimension of the k-th point. Its matrix is Pascal's triangle modulo 2, and entry (i, p) of that is
+/// odd where the bits of p are among those of i (Lucas): a sum over supersets, bit by bit of the index.
+constexpr std::uint32_t second_dimension(std::uint32_t k) {
+    std::uint32_t x = reverse_bits(k);
+    x ^= (x << 1) & 0xaaaaaaaau;
+    x ^= (x << 2) & 0xccccccccu;
+    x ^= (x << 4) & 0xf0f0f0f0u;
+    x ^= (x << 8) & 0xff00ff00u;
+    x ^= (x << 16) & 0xffff0000u;
+    return x;
+}
+
 /// The sequence of one pixel in one replicate.
 class PixelSampler {
 public:
@@ -45,21 +57,20 @@ public:
 
     /// The k-th position in the unit square.
     Vec2 position(std::uint32_t k) const {
-        const std::uint32_t shuffled = owen_scramble(k, static_cast<std::uint32_t>(key_));
-        return {fraction(owen_scramble(reverse_bits(shuffled), static_cast<std::uint32_t>(mix(key_ + 1)))),
-                fraction(owen_scramble(second_dimension(shuffled), static_cast<std::uint32_t>(mix(key_ + 2))))};
+        const std::uint32_t shuffled = owen_scramble(k, key(0));
+        return {fraction(owen_scramble(reverse_bits(shuffled), key(1))),
+                fraction(owen_scramble(second_dimension(shuffled), key(2)))};
+    }
+
+    /// What positions are scrambled by: their order, and the two coordinates.
+    std::uint32_t key(int dimension) const {
+        return static_cast<std::uint32_t>(dimension == 0 ? key_ : mix(key_ + static_cast<std::uint64_t>(dimension)));
     }
 
     /// Independent numbers in [0, 1) for choices along a path.
     double next() { return static_cast<double>(mix(key_ + 3 + ++drawn_) >> 11) * 0x1p-53; }
 
 private:
-    static constexpr std::uint32_t second_dimension(std::uint32_t k) {
-        std::uint32_t x = 0, direction = 1u << 31;
-        for (; k; k >>= 1, direction ^= direction >> 1)
-            if (k & 1) x ^= direction;
-        return x;
-    }
     static double fraction(std::uint32_t x) { return x * 0x1p-32; }
 
     std::uint64_t key_;

@@ -55,17 +55,6 @@ void put(float *to, Vec3 v) {
 /// So few rectangles are met sooner one by one, in double precision, than through a hierarchy.
 constexpr std::size_t few_rectangles = 8;
 
-/// A rectangle, ready to be met: u and v of a point p are 1/2 + dot(p - centre, along_u or along_v).
-struct Rectangle {
-    std::size_t object;
-    Vec3 centre, normal, along_u, along_v;
-
-    Rectangle(std::size_t index, const Quad &q)
-        : object(index), centre(q.centre_mm), normal(glm::normalize(glm::cross(q.half_u_mm, q.half_v_mm))),
-          along_u(0.5 * q.half_u_mm / glm::dot(q.half_u_mm, q.half_u_mm)),
-          along_v(0.5 * q.half_v_mm / glm::dot(q.half_v_mm, q.half_v_mm)) {}
-};
-
 struct Surfaces::State {
     const Scene *scene;
     std::vector<Rectangle> rectangles; ///< those that are not in Embree's world
@@ -277,6 +266,9 @@ bool Surfaces::blocks(const Ray &ray, const SurfaceHit &left) const {
     state_->meet_rectangles(ray, &left, hit);
     return hit.has_value();
 }
+
+const std::vector<Rectangle> &Surfaces::rectangles() const { return state_->rectangles; }
+bool Surfaces::only_rectangles() const { return state_->count == 0; }
 
 Rgb Surfaces::emitted(const SurfaceHit &hit) const {
     return std::visit(overloaded{

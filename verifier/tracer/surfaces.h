@@ -7,6 +7,7 @@
 #include <string>
 
 #include "scenes/camera.h"
+#include "verifier/tracer/packet.h"
 
 namespace threefold::tracer {
 
@@ -32,6 +33,10 @@ public:
 
     /// Is anything in the way of a ray that leaves a surface at `left`?
     bool blocks(const Ray &ray, const SurfaceHit &left) const;
+
+    /// The rectangles that are met one by one, in double precision; with `only_rectangles` there is nothing else.
+    const std::vector<Rectangle> &rectangles() const;
+    bool only_rectangles() const;
 
     /// Radiance of an emitter, or reflectance of a diffuse surface, at a hit.
     Rgb emitted(const SurfaceHit &hit) const;

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// The radiance of surfaces that shine by themselves, looked up without a detour: most rays of an orb end on one.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "scenes/scene.h"
+
+namespace threefold::tracer {
+
+class Emitters {
+public:
+    explicit Emitters(const Scene &scene) : emitters_(scene.objects.size()) {
+        for (std::size_t i = 0; i < scene.objects.size(); ++i)
+            std::visit(overloaded{
+                           [](const GlassBall &) {},
+                           [](const GlassShell &) {},
+                           [&](const Quad &quad) { add(quad.surface, emitters_[i]); },
+                           [&](const Mesh &mesh) { add(mesh.surface, emitters_[i]); },
+                       },
+                       scene.objects[i].shape);
+    }
+
+    /// Does every surface shine, and none reflect?
+    bool all_shine() const { return all_shine_; }
+
+    Rgb radiance(std::size_t object, double u, double v) const {
+        const Emitter &e = emitters_[object];
+        switch (e.kind) {
+        case Kind::constant:
+            return e.colour;
+        case Kind::coordinates:
+            return {u, v, 1};
+        case Kind::texture:
+            return bilinear(*e.texture, u, v);
+        }
+        return Rgb(0);
+    }
+
+private:
+    enum class Kind { constant, coordinates, texture };
+    struct Emitter {
+        Kind kind = Kind::constant;
+        Rgb colour{0};
+        const Texture *texture = nullptr; ///< owned by the scene
+    };
+
+    void add(const Surface &surface, Emitter &e) {
+        std::visit(overloaded{
+                       [this](const Diffuse &) { all_shine_ = false; },
+                       [&](const Emissive &emissive) {
+                           std::visit(overloaded{
+                                          [&](const Rgb &colour) { e.colour = colour; },
+                                          [&](const std::shared_ptr<const Texture> &texture) {
+                                              e.kind = Kind::texture;
+                                              e.texture = texture.get();
+                                          },
+                                      },
+                                      emissive.radiance);
+                       },
+                       [&](const CoordinateCard &) { e.kind = Kind::coordinates; },
+                   },
+                   surface);
+    }
+
+    /// As `sample` in scenes/texture.h.
+    static Rgb bilinear(const Texture &t, double u, double v) {
+        const double x = std::clamp(u * t.width - 0.5, 0.0, t.width - 1.0);
+        const double y = std::clamp((1 - v) * t.height - 0.5, 0.0, t.height - 1.0);
+        const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
+        const double fx = x - x0, fy = y - y0;
+        const std::size_t row = static_cast<std::size_t>(t.width) * 3;
+        const std::uint16_t *a = t.rgb.data() + static_cast<std::size_t>(y0) * row + static_cast<std::size_t>(x0) * 3;
+        const std::uint16_t *b = a + (x0 + 1 < t.width ? 3 : 0);
+        const std::size_t down = y0 + 1 < t.height ? row : 0;
+        const double w11 = fx * fy, w01 = fx - w11, w10 = fy - w11, w00 = 1 - fx - w10; // of right (x) and lower (y)
+        Rgb sum;
+        for (int c = 0; c < 3; ++c) sum[c] = w00 * a[c] + w01 * b[c] + w10 * (a + down)[c] + w11 * (b + down)[c];
+        return sum * (1 / 65535.0);
+    }
+
+    std::vector<Emitter> emitters_;
+    bool all_shine_ = true;
+};
+
+} // namespace threefold::tracer
