@@ -187,7 +187,10 @@ void Reader::put_surfaces_together() {
         const bool is_quad = std::holds_alternative<Quad>(flat.object.shape);
         int side = 1;
         const auto *front = std::get_if<Diffuse>(&flat.sides.front);
-        const bool black = front && greatest_value(front->reflectance) == Rgb(0) && !flat.sides.grid;
+        const auto *shining = std::get_if<Emissive>(&flat.sides.front);
+        const bool black = ((front && greatest_value(front->reflectance) == Rgb(0)) ||
+                            (shining && greatest_value(shining->radiance) == Rgb(0))) &&
+                           !flat.sides.grid;
         if (!flat.sides.alike && !black) {
             if (is_quad)
                 side = side_of_view(flat);
@@ -203,7 +206,7 @@ void Reader::put_surfaces_together() {
             continue;
         }
         if (const auto *d = std::get_if<Diffuse>(&shown)) reflects |= greatest_value(d->reflectance) != Rgb(0);
-        if (!std::holds_alternative<Diffuse>(shown)) {
+        if (!std::holds_alternative<Diffuse>(shown) && !black) {
             emits = true;
             emitting = flat.node;
         }

@@ -223,10 +223,9 @@ private:
                            if (greatest_value(d.reflectance) != Rgb(0)) ++diffuse_;
                        },
                        [&](const Emissive &e) {
-                           if (greatest_value(e.radiance) == Rgb(0)) return black(shape);
                            black(shape);
                            paint(child(shape, "emitter", "area"), "radiance", e.radiance);
-                           ++emissive_;
+                           if (greatest_value(e.radiance) != Rgb(0)) ++emissive_;
                        },
                        [&](const CoordinateCard &) {
                            // Bilinear between (u, v, 1) at the card's corners: a picture of two by two texels, of
