@@ -34,7 +34,8 @@ template <class T>
 bool take(std::string_view &bytes, std::uint64_t count, std::vector<T> &list) {
     if (count > bytes.size() / sizeof(T)) return false;
     list.resize(count);
-    std::memcpy(static_cast<void *>(list.data()), bytes.data(), count * sizeof(T));
+    if (count > 0) // an empty list has no address
+        std::memcpy(static_cast<void *>(list.data()), bytes.data(), count * sizeof(T));
     bytes.remove_prefix(count * sizeof(T));
     return true;
 }

@@ -228,8 +228,7 @@ void Reader::add_grid(const Flat &flat) {
                 if (at > 0 && at < cells) all.push_back(at);
         all.push_back(cells);
         std::ranges::sort(all);
-        const auto repeated = std::ranges::unique(all);
-        all.erase(repeated.begin(), repeated.end());
+        all.erase(std::unique(all.begin(), all.end()), all.end()); // not the ranges form: clang 14 cannot read it
         return all;
     };
     const std::vector<double> us = borders(grid.scale.x), vs = borders(grid.scale.y);
