@@ -14,6 +14,7 @@
 #include <OpenImageIO/strutil.h>
 #include <fmt/format.h>
 
+#include "exporter/descriptor.h"
 #include "scenes/error.h"
 
 namespace threefold {
@@ -27,33 +28,6 @@ namespace fs = std::filesystem;
                     "free some space, or choose another folder");
     throw Error(Exit::input_output,
                 fmt::format("cannot {} {}: {}", action, path.string(), std::generic_category().message(error)));
-}
-
-class Descriptor {
-public:
-    explicit Descriptor(int number) : number_(number) {}
-    ~Descriptor() {
-        if (number_ >= 0) ::close(number_);
-    }
-    Descriptor(const Descriptor &) = delete;
-    Descriptor &operator=(const Descriptor &) = delete;
-
-    int number() const { return number_; }
-    /// Some file systems report a failed write only here.
-    bool close() { return ::close(std::exchange(number_, -1)) == 0; }
-
-private:
-    int number_;
-};
-
-bool write_all(int descriptor, std::string_view bytes) {
-    while (!bytes.empty()) {
-        const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
-        if (written < 0 && errno == EINTR) continue;
-        if (written < 0) return false;
-        bytes.remove_prefix(static_cast<std::size_t>(written));
-    }
-    return true;
 }
 
 fs::path folder_of(const fs::path &path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }

@@ -8,27 +8,17 @@
 #include "scenes/catalogue/catalogue.h"
 #include "verifier/check/check.h"
 #include "verifier/report/html.h"
+#include "tests/quick_request.h"
 
 namespace threefold {
 namespace {
-
-CheckRequest request(const std::filesystem::path &folder, const std::vector<std::string> &names) {
-    CheckRequest r;
-    const auto claims = built_in_claims();
-    for (const std::string &name : names) r.claims.push_back(find_claim(claims, name));
-    r.scenes = built_in_scenes();
-    r.witnesses = find_witnesses({"tracer"});
-    r.quick = true;
-    r.folder = folder;
-    return r;
-}
 
 class EveryClaim : public testing::TestWithParam<std::string> {};
 
 TEST_P(EveryClaim, HoldsInTheTracerUnderBothPresets) {
     const TemporaryFolder folder;
     for (const Preset preset : {Preset::text, Preset::published}) {
-        CheckRequest r = request(folder.path(), {GetParam()});
+        CheckRequest r = quick_request<CheckRequest>(folder.path(), {GetParam()});
         r.presets = {preset};
         const CheckOutcome outcome = check(r);
         if (outcome.result.claims.front().rows.empty()) { // pictures to be compared, and one renderer alone
@@ -47,7 +37,7 @@ TEST_P(EveryClaim, HoldsInTheTracerUnderBothPresets) {
 
 TEST_P(EveryClaim, FailsUnderItsMutantAndTheRendererIsNamed) {
     const TemporaryFolder folder;
-    CheckRequest r = request(folder.path(), {GetParam()});
+    CheckRequest r = quick_request<CheckRequest>(folder.path(), {GetParam()});
     r.injected["tracer"] = r.claims.front().mutant;
     const CheckOutcome outcome = check(r);
     if (outcome.result.claims.front().rows.empty()) { // see Mutants in check_renderer_test.cpp
@@ -72,7 +62,7 @@ TEST(Check, EveryFaultIsAnsweredByFails) {
     for (const Claim &c : built_in_claims()) names.push_back(c.name);
     for (const FaultEntry &fault : faults()) {
         const auto fails = [&](const std::string &name) {
-            CheckRequest r = request(folder.path(), {name});
+            CheckRequest r = quick_request<CheckRequest>(folder.path(), {name});
             r.injected["tracer"] = fault.fault;
             return check(r).exit == Exit::fails;
         };
@@ -82,7 +72,7 @@ TEST(Check, EveryFaultIsAnsweredByFails) {
 
 TEST(Check, ASecondRunTakesThePicturesFromTheCacheAndSaysTheSame) {
     const TemporaryFolder folder;
-    const CheckRequest r = request(folder.path(), {"rim-reads-wall"});
+    const CheckRequest r = quick_request<CheckRequest>(folder.path(), {"rim-reads-wall"});
     const RunResult first = check(r).result, second = check(r).result;
     EXPECT_FALSE(first.renders.front().from_cache);
     EXPECT_TRUE(second.renders.front().from_cache);
@@ -91,7 +81,7 @@ TEST(Check, ASecondRunTakesThePicturesFromTheCacheAndSaysTheSame) {
 
 TEST(Check, ADamagedCacheIsRenderedAnew) {
     const TemporaryFolder folder;
-    const CheckRequest r = request(folder.path(), {"rim-reads-wall"});
+    const CheckRequest r = quick_request<CheckRequest>(folder.path(), {"rim-reads-wall"});
     const RunResult first = check(r).result;
     std::filesystem::resize_file(folder.path() / first.renders.front().folder / "replicate-03.tif", 100);
     const RunResult second = check(r).result;
@@ -101,7 +91,7 @@ TEST(Check, ADamagedCacheIsRenderedAnew) {
 
 TEST(Check, AnIndexUnderTheCriticalOneMakesTheConclusionFailAndSaysWhy) {
     const TemporaryFolder folder;
-    CheckRequest r = request(folder.path(), {"solid-vs-hollow"});
+    CheckRequest r = quick_request<CheckRequest>(folder.path(), {"solid-vs-hollow"});
     r.assignments = {{"glass.index", "1.15"}};
     const CheckOutcome outcome = check(r);
     EXPECT_EQ(outcome.exit, Exit::fails);
@@ -118,7 +108,7 @@ TEST(Check, AnIndexUnderTheCriticalOneMakesTheConclusionFailAndSaysWhy) {
 
 TEST(Check, AnUnknownParameterIsRefusedBeforeAnythingIsRendered) {
     const TemporaryFolder folder;
-    CheckRequest r = request(folder.path(), {"rim-reads-wall"});
+    CheckRequest r = quick_request<CheckRequest>(folder.path(), {"rim-reads-wall"});
     r.assignments = {{"orb.wal_mm", "2"}};
     EXPECT_THROW(check(r), Error);
     EXPECT_TRUE(std::filesystem::is_empty(folder.path()));

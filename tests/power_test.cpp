@@ -9,6 +9,7 @@
 #include "scenes/error.h"
 #include "verifier/studies/power.h"
 #include "verifier/studies/power_report.h"
+#include "tests/quick_request.h"
 
 namespace threefold {
 namespace {
@@ -138,20 +139,9 @@ TEST(SmallestFault, DoesNotExistForWhatIsThereOrNot) {
         entry_of(Fault::texture_mirrored), [](double) { return true; }, 1.1));
 }
 
-PowerRequest request(const std::filesystem::path &folder, const std::vector<std::string> &names) {
-    PowerRequest r;
-    const auto claims = built_in_claims();
-    for (const std::string &name : names) r.claims.push_back(find_claim(claims, name));
-    r.scenes = built_in_scenes();
-    r.witnesses = find_witnesses({"tracer"});
-    r.quick = true;
-    r.folder = folder;
-    return r;
-}
-
 TEST(Power, TellsWhatIsCaughtByWhomAndHowSmall) {
     const TemporaryFolder folder;
-    PowerRequest r = request(folder.path(), {"calibration", "rim-reads-wall"});
+    PowerRequest r = quick_request<PowerRequest>(folder.path(), {"calibration", "rim-reads-wall"});
     r.faults = {Fault::wall_doubled, Fault::texture_mirrored, Fault::light_missing};
     r.runs = 2;
     double last = 0;
@@ -179,7 +169,7 @@ TEST(Power, TellsWhatIsCaughtByWhomAndHowSmall) {
 
 TEST(Power, LeavesNoFaultyPicturesBehind) {
     const TemporaryFolder folder;
-    PowerRequest r = request(folder.path(), {"rim-reads-wall"});
+    PowerRequest r = quick_request<PowerRequest>(folder.path(), {"rim-reads-wall"});
     r.faults = {Fault::wall_ten_percent};
     r.runs = 0;
     EXPECT_EQ(study_power(r).verdict(), Verdict::holds);
@@ -189,7 +179,7 @@ TEST(Power, LeavesNoFaultyPicturesBehind) {
 
 TEST(Power, NeedsTheRendererThatGetsTheFaults) {
     const TemporaryFolder folder;
-    PowerRequest r = request(folder.path(), {"rim-reads-wall"});
+    PowerRequest r = quick_request<PowerRequest>(folder.path(), {"rim-reads-wall"});
     r.witnesses.clear();
     EXPECT_THROW(study_power(r), Error);
 }

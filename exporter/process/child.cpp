@@ -21,6 +21,7 @@
 #include <OpenImageIO/strutil.h>
 #include <fmt/format.h>
 
+#include "exporter/descriptor.h"
 #include "scenes/error.h"
 
 extern char **environ;
@@ -52,25 +53,6 @@ bool is_program(const fs::path &path) {
     return fs::is_regular_file(path, ignored) && ::access(path.c_str(), X_OK) == 0;
 }
 
-class Descriptor {
-public:
-    explicit Descriptor(int number = -1) : number_(number) {}
-    ~Descriptor() { close(); }
-    Descriptor(const Descriptor &) = delete;
-    Descriptor &operator=(const Descriptor &) = delete;
-
-    int number() const { return number_; }
-    bool is_open() const { return number_ >= 0; }
-    void open(int number) {
-        close();
-        number_ = number;
-    }
-    bool close() { return number_ < 0 || ::close(std::exchange(number_, -1)) == 0; }
-
-private:
-    int number_;
-};
-
 /// The child's output as it comes: to the log as it stands, and in lines to the caller.
 class Output {
 public:
@@ -101,12 +83,7 @@ public:
 
 private:
     void append_to_log(std::string_view bytes) {
-        while (log_.is_open() && !bytes.empty()) {
-            const ssize_t written = ::write(log_.number(), bytes.data(), bytes.size());
-            if (written < 0 && errno == EINTR) continue;
-            if (written < 0) throw_log_failed(errno);
-            bytes.remove_prefix(static_cast<std::size_t>(written));
-        }
+        if (log_.is_open() && !write_all(log_.number(), bytes)) throw_log_failed(errno);
     }
 
     void finish_line() {

@@ -23,6 +23,7 @@
 
 #include <fmt/format.h>
 
+#include "exporter/descriptor.h"
 #include "exporter/process/child.h"
 #include "exporter/text.h"
 #include "scenes/error.h"
@@ -35,34 +36,8 @@ using Clock = std::chrono::steady_clock;
 constexpr int exit_done = 0, exit_failed = 1, exit_out_of_memory = 2, exit_no_room = 3;
 constexpr int step_ms = 100;
 
-class Descriptor {
-public:
-    explicit Descriptor(int number) : number_(number) {}
-    ~Descriptor() { close(); }
-    Descriptor(const Descriptor &) = delete;
-    Descriptor &operator=(const Descriptor &) = delete;
-
-    int number() const { return number_; }
-    void close() {
-        if (number_ >= 0) ::close(std::exchange(number_, -1));
-    }
-
-private:
-    int number_;
-};
-
 [[noreturn]] void throw_not_started(int error) {
     throw Error(Exit::input_output, fmt::format("cannot make a process: {}", std::generic_category().message(error)));
-}
-
-bool write_all(int descriptor, std::string_view bytes) {
-    while (!bytes.empty()) {
-        const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
-        if (written < 0 && errno == EINTR) continue;
-        if (written < 0) return false;
-        bytes.remove_prefix(static_cast<std::size_t>(written));
-    }
-    return true;
 }
 
 void limit(__rlimit_resource what, rlim_t value) {
