@@ -263,7 +263,7 @@ TEST(Junit, names_the_suites_of_both_presets_apart) {
 TEST(Terminal, says_the_verdict_in_words_and_shows_rows_that_do_not_hold) {
     const std::string text = to_text(example(), false, 0);
     EXPECT_TRUE(text.starts_with("✗ The claim fails.\n")) << text;
-    EXPECT_THAT(text, HasSubstr("measured 1.250 mm (90 % interval 1.231 to 1.269), expected 1.2 within 0.1 mm"));
+    EXPECT_THAT(text, HasSubstr("measured 1.250 mm (92 % interval 1.231 to 1.269), expected 1.2 within 0.1 mm"));
     EXPECT_THAT(text, HasSubstr("24 replicates would decide"));
     EXPECT_THAT(text, HasSubstr("Blender Cycles, missing: Blender is not installed"));
     EXPECT_EQ(occurrences(text, "measured"), 2u);

@@ -68,9 +68,9 @@ Estimate difference(const Estimate &a, const Estimate &b) {
     return {a.mean - b.mean, std::sqrt(va + vb), freedom, std::min(a.replicates, b.replicates)};
 }
 
-Interval interval(const Estimate &e) {
+Interval interval(const Estimate &e, double level) {
     if (e.standard_error == 0) return {e.mean, e.mean};
-    const double half = quantile(e.degrees_of_freedom, significance) * e.standard_error;
+    const double half = quantile(e.degrees_of_freedom, level) * e.standard_error;
     return {e.mean - half, e.mean + half};
 }
 
@@ -90,14 +90,15 @@ Verdict judge(const Interval &m, Relation relation, double value, double toleran
     return Verdict::undecided;
 }
 
-std::optional<int> replicates_to_decide(const Estimate &m, Relation relation, double value, double tolerance) {
+std::optional<int> replicates_to_decide(const Estimate &m, Relation relation, double value, double tolerance,
+                                        double level) {
     const double from_edge =
         relation == Relation::equal ? std::abs(std::abs(m.mean - value) - tolerance) : std::abs(m.mean - value);
     if (!(from_edge > 0) || !std::isfinite(m.standard_error) || m.replicates < 2) return std::nullopt;
     if (m.standard_error == 0) return m.replicates;
     const double spread = m.standard_error * std::sqrt(static_cast<double>(m.replicates));
     for (double n = m.replicates; n <= 1e6; n = std::ceil(n * 1.1))
-        if (quantile(n - 1, significance) * spread / std::sqrt(n) < from_edge) return static_cast<int>(n);
+        if (quantile(n - 1, level) * spread / std::sqrt(n) < from_edge) return static_cast<int>(n);
     return std::nullopt;
 }
 

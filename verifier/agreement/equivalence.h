@@ -16,8 +16,12 @@ std::string_view to_string(Verdict verdict);
 /// The verdict of "all of these hold".
 Verdict all_of(Verdict a, Verdict b);
 
-/// Each one-sided test is made at this level, so intervals cover 90 %.
+/// A number is judged wrongly no more often than this: the level of each one-sided test.
 inline constexpr double significance = 0.05;
+/// Where a first look leaves a number undecided it is looked at once more, with more replicates. The two looks share the
+/// level (Bonferroni), so that a second one buys no error.
+inline constexpr double first_look = 0.04, second_look = 0.01;
+static_assert(first_look + second_look <= significance);
 
 /// A mean over independent replicates.
 struct Estimate {
@@ -34,8 +38,8 @@ struct Interval {
 Estimate estimate(std::span<const double> replicates);
 /// a - b with Welch's degrees of freedom.
 Estimate difference(const Estimate &a, const Estimate &b);
-/// The 1 - 2 * significance interval by Student's t.
-Interval interval(const Estimate &e);
+/// The 1 - 2 * level interval by Student's t.
+Interval interval(const Estimate &e, double level = significance);
 
 /// What is asked of a number. `equal`: it lies within `tolerance` of `value`. `below` and `above`: it lies on that
 /// side.
@@ -45,7 +49,8 @@ std::string_view to_string(Relation relation);
 Verdict judge(const Interval &measured, Relation relation, double value, double tolerance);
 
 /// How many replicates in all would decide, if mean and spread stay as they are; empty when no number would.
-std::optional<int> replicates_to_decide(const Estimate &measured, Relation relation, double value, double tolerance);
+std::optional<int> replicates_to_decide(const Estimate &measured, Relation relation, double value, double tolerance,
+                                        double level = significance);
 
 /// One-sided p-value of "the true mean is not outside value +- tolerance"; small means that it differs.
 double p_value_of_difference(const Estimate &measured, double value, double tolerance);

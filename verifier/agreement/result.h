@@ -38,6 +38,7 @@ struct Row {
     std::vector<BudgetItem> budget;
     Verdict verdict = Verdict::undecided;
     std::optional<int> replicates_to_decide;
+    double level = first_look; ///< of each one-sided test: `first_look` or `second_look`
 };
 
 /// Two renderers' pictures of the same scene, tile by tile.

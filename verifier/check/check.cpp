@@ -16,6 +16,7 @@
 #include "verifier/agreement/tiles.h"
 #include "verifier/check/hearing.h"
 #include "verifier/check/plan.h"
+#include "verifier/check/rows.h"
 #include "verifier/measure/radiance.h"
 
 namespace threefold {
@@ -25,12 +26,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-/// What one witness made of one experiment.
-struct Testimony {
-    const Witness *witness;
-    Rendered rendered;
-};
 
 class Run {
 public:
@@ -100,11 +95,11 @@ private:
         if (request_.on_progress) request_.on_progress(w.name, done / experiments_, e.name);
         const std::vector<Reading> readings = e.inspect(scene_for(w, e));
         for (const Expected &expected : e.predict(Accuracy{})) {
-            Row row = row_of(e, w, expected);
+            Row row = row_of(e.name, w.name, expected);
             const auto reading = std::ranges::find(readings, expected.quantity, &Reading::quantity);
             row.measured = {reading == readings.end() ? std::numeric_limits<double>::quiet_NaN() : reading->value, 0,
                             std::numeric_limits<double>::infinity(), 0};
-            result.rows.push_back(judged(row));
+            result.rows.push_back(judged(std::move(row)));
         }
         return record.problem.empty();
     }
@@ -114,8 +109,8 @@ private:
         return own != request_.seeds.end() ? own->second : request_.seed;
     }
 
-    Question question_for(const Witness &w, const Experiment &e) {
-        const double done = finished_[w.name]++;
+    Question question_for(const Witness &w, const Experiment &e, const std::string &label) {
+        const double done = finished_[w.name];
         const auto tell = [this, name = w.name, now = e.name, done](double share) {
             if (request_.on_progress) request_.on_progress(name, (done + share) / experiments_, now);
         };
@@ -123,14 +118,27 @@ private:
         RenderJob job = job_of(e, seed_of(w), request_.threads);
         if (const auto fault = request_.injected.find(w.name); fault != request_.injected.end())
             job = with_fault(std::move(job), fault->second);
-        return {&w, std::move(job), {request_.folder, e.name, request_.tracer, request_.time_limit, tell}};
+        return {&w, std::move(job), {request_.folder, label, request_.tracer, request_.time_limit, tell}};
+    }
+
+    void keep(RenderRecord record, const Witness &w, const Experiment &e, Preset preset) {
+        record.experiment = e.name;
+        record.preset = to_string(preset);
+        if (!record.from_cache) {
+            record_of(w).seconds += record.seconds;
+            if (w.is_tracer()) result_.tracer_seconds += record.seconds;
+        }
+        result_.renders.push_back(std::move(record));
     }
 
     /// Of those who can speak; a witness that could not give this picture is left out.
     std::vector<Testimony> testimonies_of(const Experiment &e, Preset preset) {
         std::vector<Question> questions;
         for (const Witness &w : request_.witnesses)
-            if (record_of(w).present && !broken_.contains(w.name)) questions.push_back(question_for(w, e));
+            if (record_of(w).present && !broken_.contains(w.name)) {
+                questions.push_back(question_for(w, e, e.name));
+                ++finished_[w.name];
+            }
         std::vector<Testimony> heard;
         const bool at_once = request_.threads != 1;
         double longest = 0, all = 0; // seconds
@@ -139,22 +147,58 @@ private:
                 note_failure(*answer.witness, e, answer.failure);
                 continue;
             }
-            RenderRecord &record = answer.rendered->record;
-            record.experiment = e.name;
-            record.preset = to_string(preset);
+            const RenderRecord &record = answer.rendered->record;
+            keep(record, *answer.witness, e, preset);
             if (!record.from_cache) {
-                record_of(*answer.witness).seconds += record.seconds;
                 longest = std::max(longest, record.seconds);
                 all += record.seconds;
-                if (answer.witness->is_tracer()) result_.tracer_seconds += record.seconds;
             }
-            result_.renders.push_back(record);
             if (request_.on_progress)
                 request_.on_progress(answer.witness->name, finished_[answer.witness->name] / experiments_, e.name);
-            heard.push_back({answer.witness, *std::move(answer.rendered)});
+            heard.push_back({answer.witness, *std::move(answer.rendered), seed_of(*answer.witness)});
         }
         result_.renderer_seconds += at_once ? longest : all;
         return heard;
+    }
+
+    /// More replicates of what is undecided. False where there is nothing more to look at.
+    bool hear_more(const Experiment &e, Preset preset, const std::vector<Row> &rows, std::vector<Testimony> &heard) {
+        std::vector<Question> questions;
+        for (const Testimony &t : heard) {
+            if (t.witness->pictures) continue;
+            const int wanted = replicates_for_second_look(t.witness->name, e.replicates, rows);
+            if (wanted == 0) continue;
+            Experiment longer = e;
+            longer.replicates = wanted;
+            Question question = question_for(*t.witness, longer, e.name + "-more");
+            question.job.replicates.erase(question.job.replicates.begin(),
+                                          question.job.replicates.begin() + e.replicates);
+            questions.push_back(std::move(question));
+        }
+        bool more = false;
+        const auto start = Clock::now();
+        for (Answer &answer : hear(std::move(questions), request_.threads != 1)) {
+            if (!answer.rendered) continue; // it spoke once: what that left open stays open
+            keep(answer.rendered->record, *answer.witness, e, preset);
+            Testimony &t = *std::ranges::find(heard, answer.witness, &Testimony::witness);
+            std::ranges::move(answer.rendered->images, std::back_inserter(t.rendered.images));
+            more = true;
+        }
+        result_.renderer_seconds += seconds_since(start);
+        return more;
+    }
+
+    /// Numbers that the first look leaves open are looked at once more.
+    std::vector<Row> rows_of(const Experiment &e, Preset preset, std::vector<Testimony> &testimonies,
+                             const std::vector<Testimony> &of_partner) {
+        std::vector<Row> rows = judged_rows(e, testimonies, of_partner, first_look);
+        // A pair of pictures has as many replicates as either has.
+        if (e.measure_pair || !hear_more(e, preset, rows, testimonies)) return rows;
+        const std::vector<Row> again = judged_rows(e, testimonies, of_partner, second_look);
+        for (std::size_t i = 0; i < rows.size(); ++i)
+            if (rows[i].verdict == Verdict::undecided && again[i].measured.replicates > rows[i].measured.replicates)
+                rows[i] = again[i];
+        return rows;
     }
 
     void note_failure(const Witness &w, const Experiment &e, const std::exception_ptr &failure) {
@@ -195,8 +239,9 @@ private:
             for (const Witness &w : request_.witnesses)
                 complete = complete && record_of(w).problem.empty() &&
                            std::ranges::count(testimonies, &w, &Testimony::witness) == 1;
-            judge_numbers(e, testimonies, heard[e.partner], result);
             judge_pictures(e, testimonies, result);
+            std::ranges::move(rows_of(e, planned.context.preset, testimonies, heard[e.partner]),
+                              std::back_inserter(result.rows));
             if (std::ranges::any_of(planned.experiments, [&](const Experiment &o) { return o.partner == e.name; }))
                 heard[e.name] = std::move(testimonies);
         }
@@ -244,72 +289,6 @@ private:
                 if (with > 1 && failing_with == with && without > 0 && holding_without == without)
                     blame(result, w.name);
             }
-    }
-
-    void judge_numbers(const Experiment &e, const std::vector<Testimony> &testimonies,
-                       const std::vector<Testimony> &of_partner, ClaimResult &result) {
-        std::map<std::string, std::vector<std::pair<const Witness *, Row>>> between;
-        for (const Testimony &t : testimonies) {
-            std::map<std::string, std::vector<double>> readings;
-            const std::vector<Replicate> replicates = replicates_of(e, seed_of(*t.witness));
-            if (e.measure)
-                for (std::size_t k = 0; k < replicates.size(); ++k)
-                    for (const Reading &r : e.measure(t.rendered.images[k], camera_of(e, replicates[k])))
-                        readings[r.quantity].push_back(r.value);
-            const auto other = std::ranges::find(of_partner, t.witness, &Testimony::witness);
-            if (e.measure_pair && other != of_partner.end())
-                for (std::size_t k = 0; k < replicates.size(); ++k)
-                    for (const Reading &r :
-                         e.measure_pair(t.rendered.images[k], other->rendered.images[k], camera_of(e, replicates[k])))
-                        readings[r.quantity].push_back(r.value);
-            if (!e.predict) continue;
-            for (const Expected &expected : e.predict(t.rendered.record.accuracy)) {
-                Row row = row_of(e, *t.witness, expected);
-                row.measured = estimate(readings[expected.quantity]);
-                result.rows.push_back(judged(row));
-                if (expected.between_renderers) between[expected.quantity].emplace_back(t.witness, row);
-            }
-        }
-        for (const auto &[quantity, rows] : between)
-            for (std::size_t i = 0; i < rows.size(); ++i)
-                for (std::size_t j = i + 1; j < rows.size(); ++j)
-                    result.rows.push_back(judged(compared(rows[i].second, rows[j].second)));
-    }
-
-    static Row row_of(const Experiment &e, const Witness &w, const Expected &expected) {
-        Row row;
-        row.experiment = e.name;
-        row.quantity = expected.quantity;
-        row.unit = expected.unit;
-        row.witness = w.name;
-        row.relation = expected.relation;
-        row.expected = expected.value;
-        row.budget = expected.budget;
-        return row;
-    }
-
-    static Row compared(const Row &a, const Row &b) {
-        Row row = a;
-        row.versus = b.witness;
-        row.measured = difference(a.measured, b.measured);
-        row.expected = 0;
-        for (const BudgetItem &item : b.budget) {
-            const auto mine = std::ranges::find(row.budget, item.name, &BudgetItem::name);
-            if (mine != row.budget.end())
-                mine->value += item.value;
-            else
-                row.budget.push_back(item);
-        }
-        return row;
-    }
-
-    static Row judged(Row row) {
-        row.tolerance = total(row.budget);
-        row.interval = interval(row.measured);
-        row.verdict = judge(row.interval, row.relation, row.expected, row.tolerance);
-        if (row.verdict == Verdict::undecided)
-            row.replicates_to_decide = replicates_to_decide(row.measured, row.relation, row.expected, row.tolerance);
-        return row;
     }
 
     void judge_pictures(const Experiment &e, const std::vector<Testimony> &testimonies, ClaimResult &result) {

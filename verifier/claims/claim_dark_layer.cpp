@@ -61,6 +61,23 @@ Radiances radiances_of(const Image &image, const Camera &camera, const OrbInScen
     return {means[0], means[1]};
 }
 
+/// Whether the robe is what stands beside the orb, in all that is measured of it.
+bool robe_stands_beside(const Scene &scene, const OrbInScene &orb) {
+    const Camera &camera = scene.camera;
+    const Band robe = beside(orb);
+    const Quad &card = card_of(scene);
+    const Vec3 normal = glm::cross(card.half_u_mm, card.half_v_mm);
+    for (int row = 0; row < camera.image_height_px(); ++row)
+        for (int column = 0; column < camera.image_width_px(); ++column) {
+            const Ray ray = camera_ray(camera, pixel_sample(camera, column, row));
+            const double b = impact_parameter(ray, orb.centre_mm);
+            if (!(b > robe.from_mm && b < robe.to_mm)) continue;
+            const auto landed = optics::landing_on_plane(ray, card.centre_mm, normal);
+            if (!landed || !on_card(card, *landed)) return false;
+        }
+    return true;
+}
+
 /// By how much of its light the layer shows the surroundings: along the rays of a picture, or (`fine` > 1) over all its
 /// columns, as many replicates see them.
 double exact_share(const Scene &scene, const Camera &camera, const OrbInScene &orb, int fine = 1) {
@@ -153,6 +170,7 @@ Experiment layer(const ClaimContext &context, const std::string &name, const std
     const double share = exact_share(scene, scene.camera, orb, columns_fine), least = criterion(e.record);
     const double surroundings = grey_environment(scene) / robe_radiance(scene);
     const double expected = share * surroundings + 1 - share;
+    const bool readable = robe_stands_beside(scene, orb);
     e.predict = [=](const Accuracy &a) {
         std::vector<BudgetItem> budget = share_budget(scene, orb, a);
         for (BudgetItem &item : budget)
@@ -162,7 +180,8 @@ Experiment layer(const ClaimContext &context, const std::string &name, const std
                                      {contrast_seen, "", claimed, least, {}}};
     };
     e.measure = [=](const Image &image, const Camera &camera) {
-        const Radiances r = radiances_of(image, camera, orb);
+        Radiances r = radiances_of(image, camera, orb);
+        if (!readable) r.robe = std::numeric_limits<double>::quiet_NaN();
         const double here = exact_share(scene, camera, orb);
         const double value = r.layer / r.robe - (here - share) * (surroundings - 1);
         return std::vector<Reading>{{layer_radiance, value}, {contrast, 1 - value}, {contrast_seen, 1 - value}};
@@ -349,6 +368,10 @@ Claim claim_dark_layer() {
                 turn ? -*turn * 180 / 3.141592653589793 : 0.0,
                 lands ? fmt::format("{:.0f}", *lands) : "infinitely many"));
         }
+        const Experiment shown = base(thick(context), "", "", {});
+        if (!robe_stands_beside(shown.scene, orb_of(shown.scene)))
+            notes.push_back("The robe ends behind the orb, as the eye sees it: nothing stands beside the layer that it "
+                            "could be held against.");
         notes.push_back(
             "The study's words are too strong: the rim does not show the surroundings whatever the robe. It "
             "shows what stands beside the orb, turned outwards; before a robe that reaches far enough it "

@@ -88,7 +88,8 @@ void add_guide(Out &out, const RunResult &result) {
     if (any([](const ClaimResult &c) { return !c.rows.empty(); }))
         guide +=
             "In the drawings, the shaded band is what the closed form allows, the bar is where the measured value lies "
-            "with 90 % confidence, and the tick is its mean: a number holds when the whole bar lies in the band. ";
+            "with 92 % confidence (98 % where it took a second look, with more replicates, to decide), and the tick is its "
+            "mean: a number holds when the whole bar lies in the band. ";
     if (any([](const ClaimResult &c) { return !c.pictures.empty(); }))
         guide +=
             any([](const ClaimResult &c) {

@@ -65,7 +65,8 @@ std::string interval_text(const Row &row) {
     if (low == high)
         return row.measured.replicates > 1 ? fmt::format("no spread in {}", row.measured.replicates) : "one render";
     const double step = resolution(row);
-    return typeset(fmt::format("{} to {}", number_at(low, step), number_at(high, step)));
+    const std::string ends = fmt::format("{} to {}", number_at(low, step), number_at(high, step));
+    return typeset(row.level == first_look ? ends : fmt::format("{} ({} replicates)", ends, row.measured.replicates));
 }
 
 void add_row(Out &out, const RunResult &result, const Row &row, const Scale &scale) {
@@ -77,7 +78,7 @@ void add_row(Out &out, const RunResult &result, const Row &row, const Scale &sca
                    "\n",
                    threefold::to_string(row.verdict), plain(title_of(result, row)),
                    cell("measured", "number", typeset(number_at(row.measured.mean, resolution(row)))),
-                   cell("90 % interval", "number", interval_text(row)),
+                   cell("interval", "number", interval_text(row)),
                    cell(row.versus.empty() ? "closed form" : "expected", "number", expected_text(row)),
                    cell("tolerance", "number", two_sided ? "±" + typeset(number(row.tolerance)) : "none"),
                    cell("interval in the band", "drawing", interval_svg(row, scale), lines),
@@ -126,7 +127,7 @@ void add_rows(Out &out, const RunResult &result, const ClaimResult &claim) {
     if (claim.rows.empty()) return;
     out += "<div class=\"scroll\"><table class=\"numbers intervals\"><thead><tr><th scope=\"col\">Renderer</th><th "
            "scope=\"col\">Measured</th>"
-           "<th scope=\"col\">90 % interval</th><th scope=\"col\">Closed form</th><th scope=\"col\">Tolerance</th>"
+           "<th scope=\"col\">Interval</th><th scope=\"col\">Closed form</th><th scope=\"col\">Tolerance</th>"
            "<th scope=\"col\">Interval in the tolerance band</th><th scope=\"col\">Verdict</th></tr></thead>\n";
     std::vector<char> done(claim.rows.size(), 0);
     for (std::size_t first = 0; first < claim.rows.size(); ++first) {

@@ -105,7 +105,7 @@ Json from_row(const Row &row) {
           {"standard_error", real(row.measured.standard_error)},
           {"degrees_of_freedom", real(row.measured.degrees_of_freedom)},
           {"replicates", row.measured.replicates}}},
-        {"interval", {{"low", real(row.interval.low)}, {"high", real(row.interval.high)}}},
+        {"interval", {{"low", real(row.interval.low)}, {"high", real(row.interval.high)}, {"coverage", 1 - 2 * row.level}}},
         {"expected", real(row.expected)},
         {"tolerance", real(row.tolerance)},
         {"budget", from_budget(row.budget)},

@@ -121,10 +121,12 @@ std::optional<Verdict> of_all_rows(const ClaimResult &claim) {
     return all;
 }
 
+std::string coverage(const Row &row) { return fmt::format("{:g} %", 100 * (1 - 2 * row.level)); }
+
 std::string sentence(const Row &row) {
     const double step = resolution(row);
     const std::string unit = row.unit.empty() ? "" : " " + row.unit;
-    return fmt::format("measured {}{} (90 % interval {} to {}), {}{}", number_at(row.measured.mean, step), unit,
+    return fmt::format("measured {}{} ({} interval {} to {}), {}{}", number_at(row.measured.mean, step), unit, coverage(row),
                        number_at(row.interval.low, step), number_at(row.interval.high, step), expectation(row, step),
                        unit);
 }

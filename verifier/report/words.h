@@ -28,7 +28,9 @@ std::optional<Verdict> between_renderers(const ClaimResult &claim);
 /// What all rows and tile comparisons say; empty where there are none.
 std::optional<Verdict> of_all_rows(const ClaimResult &claim);
 
-/// "measured 1.0402 (90 % interval 1.0398 to 1.0406), expected 1.0400 within 0.004".
+/// "92 %": how often a row's interval covers the true value.
+std::string coverage(const Row &row);
+/// "measured 1.0402 (92 % interval 1.0398 to 1.0406), expected 1.0400 within 0.004".
 std::string sentence(const Row &row);
 /// "worst tile (column 3, row 5) differs by 0.8 % of the mean radiance, tolerance 1 %; 1,020 tiles hold, 4 fail".
 std::string sentence(const TileComparison &tiles);

@@ -14,7 +14,7 @@ namespace threefold {
 
 namespace {
 
-constexpr int samples_per_pixel = 16, reference_replicates = 16;
+constexpr int samples_per_pixel = 64, reference_replicates = 16;
 constexpr double longest_side_px = 128;
 
 /// Small, textured, and with glass that takes some light, so that no fault is out of the judges' sight.

@@ -182,7 +182,7 @@ std::string to_markdown(const PowerResult &result) {
     out += fmt::format(
         "\nOnly the seed of {} changes from run to run.\n\n"
         "## The other judges\n\n"
-        "They look at one picture each of {} (16 samples a pixel, glass that takes 11 % at each surface, longest side "
+        "They look at one picture each of {} (64 samples a pixel, glass that takes 11 % at each surface, longest side "
         "128 px), against the mean of 16 honest pictures of other seeds. One that fails in any scene has caught the "
         "fault.\n\n"
         "- **idiff 0.016/1 %**, as Blender tests Cycles: 8-bit sRGB; fails when more than 1 % of the pixels differ by "

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "tests/quick_request.h"
+#include "tests/temporary_folder.h"
+#include "verifier/check/check.h"
+#include "verifier/check/rows.h"
+
+namespace threefold {
+namespace {
+
+Row row_at(const std::vector<double> &values, double level) {
+    Row row = row_of("e", "w", {"q", "", Relation::equal, 1, {{"all", 0.2, ""}}});
+    row.measured = estimate(values);
+    row.level = level;
+    return judged(row);
+}
+
+TEST(SecondLook, BothLooksTogetherSayHoldsOfANumberAtTheEdgeInAtMostFivePercent) {
+    std::mt19937_64 random(11);
+    std::normal_distribution<double> noise(1.2, 0.05);
+    int holds = 0, second = 0;
+    constexpr int trials = 4000;
+    for (int trial = 0; trial < trials; ++trial) {
+        std::vector<double> values(8);
+        for (double &v : values) v = noise(random);
+        Row row = row_at(values, first_look);
+        if (const int wanted = replicates_for_second_look("w", 8, {row})) {
+            while (static_cast<int>(values.size()) < wanted) values.push_back(noise(random));
+            row = row_at(values, second_look);
+            ++second;
+        }
+        holds += row.verdict == Verdict::holds;
+    }
+    EXPECT_GT(second, trials / 20) << "the second look is taken";
+    EXPECT_LT(holds, trials * significance + 4 * std::sqrt(trials * significance * (1 - significance)));
+}
+
+TEST(SecondLook, IsNotTakenWhereNothingIsOpenOrNoNumberOfReplicatesWouldDo) {
+    const Row decided = row_at({1, 1.01, 0.99, 1.02, 0.98}, first_look);
+    ASSERT_EQ(decided.verdict, Verdict::holds);
+    EXPECT_EQ(replicates_for_second_look("w", 5, {decided}), 0);
+    const Row hopeless = row_at({1.2, 0.2, 2.2, 1.1, 1.3001}, first_look);
+    ASSERT_EQ(hopeless.verdict, Verdict::undecided);
+    EXPECT_EQ(replicates_for_second_look("w", 5, {hopeless}), 0);
+    const Row open = row_at({1, 1.3, 0.9, 1.02, 0.7}, first_look);
+    ASSERT_EQ(open.verdict, Verdict::undecided);
+    EXPECT_GT(replicates_for_second_look("w", 5, {open}), 5);
+    EXPECT_EQ(replicates_for_second_look("another", 5, {open}), 0);
+}
+
+/// The first look leaves this bracket open: its noise is half its distance from the flip point.
+TEST(SecondLook, SettlesWhatTheFirstLeavesOpen) {
+    const tests::TemporaryFolder folder;
+    auto request = quick_request<CheckRequest>(folder.path(), {"shift"});
+    request.assignments = {{"eye.distance_mm", "600"}};
+    const RunResult result = check(request).result;
+    EXPECT_EQ(result.verdict, Verdict::holds) << result.summary;
+    int twice = 0;
+    for (const ClaimResult &claim : result.claims)
+        for (const Row &row : claim.rows) {
+            EXPECT_EQ(row.level == second_look, row.measured.replicates > 8) << row.experiment << ": " << row.quantity;
+            twice += row.level == second_look;
+        }
+    EXPECT_GT(twice, 0);
+}
+
+} // namespace
+} // namespace threefold

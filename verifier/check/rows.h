@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// The numbers of one experiment: what every witness's replicates say, beside the closed form and beside each other.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "verifier/agreement/result.h"
+#include "verifier/claims/claim.h"
+#include "verifier/witness/witness.h"
+
+namespace threefold {
+
+/// What one witness made of one experiment: the first of its replicates, or more of them.
+struct Testimony {
+    const Witness *witness;
+    Rendered rendered;
+    std::uint64_t seed; ///< of all its replicates
+};
+
+/// Everything but the measurement and the verdict.
+Row row_of(const std::string &experiment, const std::string &witness, const Expected &expected);
+/// The same with interval and verdict, each one-sided test at `row.level`.
+Row judged(Row row);
+
+/// One row a quantity for every witness, then one for every two of them where the renderers are to agree among
+/// themselves. `of_partner`: testimonies on `e.partner`.
+std::vector<Row> judged_rows(const Experiment &e, const std::vector<Testimony> &testimonies,
+                             const std::vector<Testimony> &of_partner, double level);
+
+/// Of a witness's numbers that are undecided: how many replicates the second look should have in all; 0 where none of
+/// them is worth it.
+int replicates_for_second_look(const std::string &witness, int replicates, const std::vector<Row> &rows);
+
+} // namespace threefold
