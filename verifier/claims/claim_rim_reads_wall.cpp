@@ -27,19 +27,6 @@ constexpr double orb_share = 0.8; ///< of the film's width
 constexpr int margin_px = 12;     ///< of the crop beside the rim
 constexpr int rows_px = 32;
 
-/// Image x on the horizontal through the crop's middle where the ray has this impact parameter, right of the orb.
-double column_of(const Camera &camera, const OrbInScene &orb, double impact_mm) {
-    double low = 0, high = camera.image_width_px();
-    const auto impact = [&](double x) {
-        return impact_parameter(camera_ray(camera, {x, camera.image_height_px() / 2.0}), orb.centre_mm);
-    };
-    for (int step = 0; step < 60; ++step) {
-        const double middle = (low + high) / 2;
-        (impact(middle) < impact_mm ? low : high) = middle;
-    }
-    return low;
-}
-
 double run_wall_mm(const ClaimContext &context) {
     return orb_of(context.experiment("", "", "rim", {}, {}).scene).optics.wall_mm;
 }
@@ -61,14 +48,15 @@ Experiment width_experiment(const ClaimContext &context, const std::string &name
     const double wall_share = 0.5 * orb_share * orb.optics.wall_mm / orb.optics.outer_mm; // of the film's width
     const double film_px = std::clamp(wall_px / wall_share, least_film_px, 1e8);
     camera.width_px = camera.height_px = static_cast<int>(2 * std::round(film_px / 2));
-    const double middle = column_of(camera, orb, orb.optics.outer_mm - orb.optics.wall_mm / 2);
+    const double middle_of_rim = orb.optics.outer_mm - orb.optics.wall_mm / 2;
+    const double middle = column_of(camera, orb, middle_of_rim, camera.height_px / 2.0);
     const int width = 2 * static_cast<int>(std::ceil(film_px * wall_share / 2)) + 2 * margin_px;
     camera.crop = Crop{std::clamp(static_cast<int>(middle) - width / 2, 0, camera.width_px - width),
                        (camera.height_px - rows_px) / 2, width, rows_px};
     // Counting crossings reads the rim only where every ray beside it is totally reflected, and where both borders
     // lie well inside the crop.
-    const double left = column_of(camera, orb, orb.optics.inner_mm),
-                 right = column_of(camera, orb, orb.optics.outer_mm);
+    const double left = column_of(camera, orb, orb.optics.inner_mm, rows_px / 2.0),
+                 right = column_of(camera, orb, orb.optics.outer_mm, rows_px / 2.0);
     const bool readable = optics::rim_width(orb.optics) > orb.optics.wall_mm * (1 - 1e-9) && left > 2 &&
                           right < width - 2 && right - left > 2;
     e.sampling = Sampling::box;
@@ -88,9 +76,9 @@ Experiment width_experiment(const ClaimContext &context, const std::string &name
               {"edge", 0.002 * orb.optics.wall_mm, "a border that curves through a pixel, and its finite samples"}},
              true}};
     };
-    e.measure = [orb, readable](const Image &image, const Camera &at) {
+    e.measure = [orb, readable, middle_of_rim](const Image &image, const Camera &at) {
         if (!readable) return std::vector<Reading>{{"width of the rim", std::numeric_limits<double>::quiet_NaN()}};
-        const double split = std::round(column_of(at, orb, orb.optics.outer_mm - orb.optics.wall_mm / 2));
+        const double split = std::round(column_of(at, orb, middle_of_rim, rows_px / 2.0));
         double sum = 0;
         for (int row = 0; row < image.height; ++row) {
             const Borders b = plateau_borders(image, row, static_cast<int>(split), {1.0 / 16, 1.0 / 4, 1});

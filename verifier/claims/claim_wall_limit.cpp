@@ -13,6 +13,7 @@
 #include "verifier/claims/flip.h"
 #include "verifier/claims/fold_experiment.h"
 #include "verifier/claims/fold_numbers.h"
+#include "verifier/claims/orb_marks.h"
 #include "verifier/measure/edges.h"
 
 namespace threefold {
@@ -65,16 +66,6 @@ Limits find_limits(const ClaimContext &context) {
         },
         l.search.low, 0.999 * radius, 80, true);
     return l;
-}
-
-/// Image x on the crop's middle row, right of the orb's centre, where the ray has this impact parameter.
-double column_of(const Camera &camera, const OrbInScene &orb, double impact_mm, double row) {
-    double low = 0, high = camera.image_width_px();
-    for (int step = 0; step < 60; ++step) {
-        const double middle = (low + high) / 2;
-        (impact_parameter(camera_ray(camera, {middle, row}), orb.centre_mm) < impact_mm ? low : high) = middle;
-    }
-    return low;
 }
 
 enum class Side { study, below, above };

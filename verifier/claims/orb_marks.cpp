@@ -18,6 +18,15 @@ Vec2 image_of(const Camera &camera, Vec3 point_mm) {
            corner;
 }
 
+double column_of(const Camera &camera, const OrbInScene &orb, double impact_mm, double row) {
+    double low = 0, high = camera.image_width_px();
+    for (int step = 0; step < 60; ++step) {
+        const double middle = (low + high) / 2;
+        (impact_parameter(camera_ray(camera, {middle, row}), orb.centre_mm) < impact_mm ? low : high) = middle;
+    }
+    return low;
+}
+
 Mark impact_circle(const Camera &camera, const OrbInScene &orb, double impact_mm, Mark::Meaning meaning,
                    std::string label) {
     const double eye = glm::length(camera.eye_mm - orb.centre_mm);
