@@ -12,6 +12,7 @@
 
 #include "scenes/camera.h"
 #include "verifier/tracer/packet.h"
+#include "verifier/tracer/rectangles.h"
 #include "verifier/tracer/tracer.h"
 
 namespace threefold {

@@ -6,7 +6,7 @@
 #include <ctime>
 #include <mutex>
 
-#include <tbb/blocked_range2d.h>
+#include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -23,8 +23,6 @@ namespace {
 
 using namespace tracer;
 
-constexpr int tile_px = 16;
-
 double process_cpu_seconds() {
     timespec now{};
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
@@ -40,6 +38,7 @@ void render(const RenderJob &job, const TreeEnd<Real> &end, const std::function<
     const World<Real> world(job.scene, job.slip, end, samples);
     const double pixels = static_cast<double>(width) * height * static_cast<double>(job.replicates.size());
 
+    const double of_all = static_cast<double>(tiles_of(camera)) * static_cast<double>(job.replicates.size());
     std::atomic<double> done = 0;
     std::mutex progress_mutex;
     tbb::enumerable_thread_specific<PixelScratch<Real>> scratches;
@@ -48,19 +47,16 @@ void render(const RenderJob &job, const TreeEnd<Real> &end, const std::function<
         Image image(width, height);
         std::vector<double> missing(image.pixels.size());
         const PixelRenderer<Real> pixel(world, job, replicate);
-        tbb::parallel_for(tbb::blocked_range2d<int>(0, height, tile_px, 0, width, tile_px), [&](const auto &tile) {
-            if (interrupt_requested) throw Error(Exit::interrupted, "interrupted");
+        tbb::parallel_for(tbb::blocked_range<int>(0, tiles_of(camera)), [&](const auto &tiles) {
             PixelScratch<Real> &scratch = scratches.local();
-            for (int row = tile.rows().begin(); row != tile.rows().end(); ++row)
-                for (int column = tile.cols().begin(); column != tile.cols().end(); ++column)
-                    image.at(column, row) =
-                        pixel(column, row, scratch,
-                              missing[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
-                                      static_cast<std::size_t>(column)]);
-            const double now = done += static_cast<double>(tile.rows().size() * tile.cols().size());
+            for (int tile = tiles.begin(); tile != tiles.end(); ++tile) {
+                if (interrupt_requested) throw Error(Exit::interrupted, "interrupted");
+                render_tile(pixel, camera, tile, scratch, image.pixels, missing);
+            }
             if (on_progress) {
+                const double now = done += static_cast<double>(tiles.size());
                 const std::lock_guard lock(progress_mutex);
-                on_progress(now / pixels);
+                on_progress(now / of_all);
             }
         });
         for (const double m : missing) {

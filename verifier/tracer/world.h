@@ -8,9 +8,9 @@
 
 #include "exporter/job.h"
 #include "scenes/validate.h"
-#include "verifier/tracer/emitters.h"
 #include "verifier/tracer/lights.h"
 #include "verifier/tracer/orb.h"
+#include "verifier/tracer/paints.h"
 #include "verifier/tracer/sampler.h"
 #include "verifier/tracer/surfaces.h"
 
@@ -50,7 +50,7 @@ class World {
 public:
     World(const Scene &scene, const Slip &slip, const TreeEnd<Real> &end, int samples)
         : scene_(scene), end_(end), orbs_(orbs_of<Real>(scene, slip)), surfaces_(scene, std::is_same_v<Real, double>),
-          emitters_(scene), lights_(scene, samples) {}
+          paints_(scene), lights_(scene, samples) {}
 
     /// What one thread and one sample carry along.
     struct Path {
@@ -65,9 +65,9 @@ public:
     const TreeEnd<Real> &end() const { return end_; }
     const std::vector<Orb<Real>> &orbs() const { return orbs_; }
     const Surfaces &surfaces() const { return surfaces_; }
-    const Emitters &emitters() const { return emitters_; }
+    const Paints &paints() const { return paints_; }
     /// Do all rays that leave glass end on one of a few rectangles that shine, or in the environment?
-    bool is_plain() const { return emitters_.all_shine() && surfaces_.only_rectangles() && orbs_.size() <= 1; }
+    bool is_plain() const { return paints_.all_shine() && surfaces_.only_rectangles() && orbs_.size() <= 1; }
 
     /// `left` is the orb that the ray has just left, if any: it cannot meet it again.
     Rgb radiance(const RayOf<Real> &ray, double weight, std::size_t left, int depth, Path &path) const {
@@ -85,17 +85,6 @@ public:
         TreeEnd<Real> end = end_;
         end.cut = static_cast<Real>(std::min(1.0, static_cast<double>(end.cut) / weight));
         return glass(orb, ray, entry, end, weight, depth, path);
-    }
-
-    /// Does a ray that meets an orb at this distance meet nothing else before?
-    bool meets_first(std::size_t orb, const RayOf<Real> &ray, Real distance) const {
-        Entry<Real> entry{};
-        for (std::size_t i = 0; i < orbs_.size(); ++i)
-            if (i != orb && intersect(orbs_[i], ray, entry) &&
-                (entry.distance < distance || (entry.distance == distance && i < orb)))
-                return false;
-        const auto hit = surfaces_.intersect(Ray{Vec3(ray.origin), Vec3(ray.direction)});
-        return !hit || hit->distance > static_cast<double>(distance);
     }
 
     /// What comes out of an orb.
@@ -129,21 +118,20 @@ private:
     }
 
     Rgb leaving(const SurfaceHit &hit, const std::vector<Light> &lights) const {
-        const auto reflectance = emitters_.all_shine() ? std::nullopt : surfaces_.reflectance(hit);
-        if (!reflectance) return emitters_.radiance(hit.object, hit.uv.x, hit.uv.y);
+        const Rgb colour = paints_.colour(hit.object, hit.uv.x, hit.uv.y);
+        if (paints_.shines(hit.object) || colour == Rgb(0)) return colour;
         Rgb irradiance(0);
         for (const Light &light : lights) {
             const double cosine = glm::dot(light.towards, hit.normal);
             if (cosine > 0) irradiance += light.irradiance * (cosine * passed(hit, light.towards));
         }
-        return *reflectance * irradiance / std::numbers::pi;
+        return colour * irradiance / std::numbers::pi;
     }
 
     /// The share of a light that reaches a surface: opaque surfaces block, glass follows the scene's rule.
     double passed(const SurfaceHit &hit, Vec3 towards) const {
         const Ray shadow{hit.position, towards};
-        if (surfaces_.blocks(shadow, hit)) return 0;
-        if (scene_.glass_shadow.rule == GlassShadow::Rule::none) return 1;
+        if (scene_.glass_shadow.rule == GlassShadow::Rule::none) return surfaces_.blocks(shadow, hit) ? 0 : 1;
         const double through =
             scene_.glass_shadow.rule == GlassShadow::Rule::constant ? scene_.glass_shadow.transmittance : 0;
         double share = 1;
@@ -151,14 +139,14 @@ private:
         for (const Orb<Real> &orb : orbs_)
             if (intersect(orb, RayOf<Real>{Vector<Real>(shadow.origin_mm), Vector<Real>(towards)}, entry))
                 share *= through;
-        return share;
+        return share > 0 && surfaces_.blocks(shadow, hit) ? 0 : share;
     }
 
     const Scene &scene_;
     TreeEnd<Real> end_;
     std::vector<Orb<Real>> orbs_;
     Surfaces surfaces_;
-    Emitters emitters_;
+    Paints paints_;
     Lights lights_;
 };
 

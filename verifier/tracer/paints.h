@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The radiance of surfaces that shine by themselves, looked up without a detour: most rays of an orb end on one.
+// The radiance of surfaces that shine by themselves and the reflectance of those that do not, looked up without a
+// detour: most rays end on one.
 #pragma once
 
 #include <algorithm>
@@ -9,57 +10,64 @@
 
 namespace threefold::tracer {
 
-class Emitters {
+class Paints {
 public:
-    explicit Emitters(const Scene &scene) : emitters_(scene.objects.size()) {
+    explicit Paints(const Scene &scene) : paints_(scene.objects.size()) {
         for (std::size_t i = 0; i < scene.objects.size(); ++i)
             std::visit(overloaded{
                            [](const GlassBall &) {},
                            [](const GlassShell &) {},
-                           [&](const Quad &quad) { add(quad.surface, emitters_[i]); },
-                           [&](const Mesh &mesh) { add(mesh.surface, emitters_[i]); },
+                           [&](const Quad &quad) { add(quad.surface, paints_[i]); },
+                           [&](const Mesh &mesh) { add(mesh.surface, paints_[i]); },
                        },
                        scene.objects[i].shape);
     }
 
     /// Does every surface shine, and none reflect?
     bool all_shine() const { return all_shine_; }
+    bool shines(std::size_t object) const { return paints_[object].shines; }
 
-    Rgb radiance(std::size_t object, double u, double v) const {
-        const Emitter &e = emitters_[object];
-        switch (e.kind) {
+    /// Radiance if the object shines, otherwise reflectance.
+    Rgb colour(std::size_t object, double u, double v) const {
+        const Look &look = paints_[object];
+        switch (look.kind) {
         case Kind::constant:
-            return e.colour;
+            return look.colour;
         case Kind::coordinates:
             return {u, v, 1};
         case Kind::texture:
-            return bilinear(*e.texture, u, v);
+            return bilinear(*look.texture, u, v);
         }
         return Rgb(0);
     }
 
 private:
     enum class Kind { constant, coordinates, texture };
-    struct Emitter {
+    struct Look {
         Kind kind = Kind::constant;
+        bool shines = true;
         Rgb colour{0};
         const Texture *texture = nullptr; ///< owned by the scene
     };
 
-    void add(const Surface &surface, Emitter &e) {
-        std::visit(overloaded{
-                       [this](const Diffuse &) { all_shine_ = false; },
-                       [&](const Emissive &emissive) {
-                           std::visit(overloaded{
-                                          [&](const Rgb &colour) { e.colour = colour; },
-                                          [&](const std::shared_ptr<const Texture> &texture) {
-                                              e.kind = Kind::texture;
-                                              e.texture = texture.get();
-                                          },
-                                      },
-                                      emissive.radiance);
+    void add(const Surface &surface, Look &look) {
+        const auto paint = [&look](const Paint &p) {
+            std::visit(overloaded{
+                           [&](const Rgb &colour) { look.colour = colour; },
+                           [&](const std::shared_ptr<const Texture> &texture) {
+                               look.kind = Kind::texture;
+                               look.texture = texture.get();
+                           },
                        },
-                       [&](const CoordinateCard &) { e.kind = Kind::coordinates; },
+                       p);
+        };
+        std::visit(overloaded{
+                       [&](const Diffuse &diffuse) {
+                           all_shine_ = look.shines = false;
+                           paint(diffuse.reflectance);
+                       },
+                       [&](const Emissive &emissive) { paint(emissive.radiance); },
+                       [&](const CoordinateCard &) { look.kind = Kind::coordinates; },
                    },
                    surface);
     }
@@ -80,7 +88,7 @@ private:
         return sum * (1 / 65535.0);
     }
 
-    std::vector<Emitter> emitters_;
+    std::vector<Look> paints_;
     bool all_shine_ = true;
 };
 
