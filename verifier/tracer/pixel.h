@@ -15,6 +15,7 @@ struct PixelScratch {
     typename World<Real>::Path path;
     PacketScratch packet;
     ShadowRays shadows;
+    SurfaceHit hits[lanes];
     std::vector<CastRays> *log = nullptr; ///< of the rays that ask for surfaces, for those who measure
 };
 
@@ -150,8 +151,8 @@ private:
                 orb_of[l] = i;
             }
         }
-        SurfaceHit hits[lanes];
-        const std::uint32_t met = meet_surfaces(rays, active, nearest, hits, scratch);
+        const auto &hits = scratch.hits;
+        const std::uint32_t met = meet_surfaces(rays, active, nearest, scratch);
         std::uint32_t left = active & ~met;
         for (std::uint32_t bits = met; bits; bits &= bits - 1) {
             const int l = std::countr_zero(bits);
@@ -169,10 +170,11 @@ private:
         return sum + static_cast<double>(std::popcount(left)) * environment();
     }
 
+    /// Where the rays of `active` meet surfaces is in scratch.hits.
     std::uint32_t meet_surfaces(const RayPacket &rays, std::uint32_t active, const Lanes &limit,
-                                SurfaceHit (&hits)[lanes], PixelScratch<double> &scratch) const {
+                                PixelScratch<double> &scratch) const {
         if (scratch.log) scratch.log->push_back({rays, active, false});
-        return world_.surfaces().intersect(rays, active, limit, hits);
+        return world_.surfaces().intersect(rays, active, limit, scratch.hits);
     }
 
     Rgb arriving(const RectangleHits &hits, int l) const {
@@ -267,8 +269,8 @@ private:
         if (!asked) return sum;
         Lanes all_the_way;
         for (double &limit : all_the_way.v) limit = std::numeric_limits<double>::infinity();
-        SurfaceHit hits[lanes];
-        const std::uint32_t met = meet_surfaces(rays, asked, all_the_way, hits, scratch);
+        const auto &hits = scratch.hits;
+        const std::uint32_t met = meet_surfaces(rays, asked, all_the_way, scratch);
         for (; asked; asked &= asked - 1) {
             const int l = std::countr_zero(asked);
             const double weight = factor * out.weight[l];

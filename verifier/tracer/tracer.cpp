@@ -31,11 +31,12 @@ double process_cpu_seconds() {
 
 template <class Real>
 void render(const RenderJob &job, const TreeEnd<Real> &end, const std::function<void(double)> &on_progress,
-            TracerOutcome &outcome) {
+            double cpu_start, TracerOutcome &outcome) {
     const Camera &camera = job.scene.camera;
     const int width = camera.image_width_px(), height = camera.image_height_px();
     const int samples = job.sampling == Sampling::box ? job.samples_per_pixel : 1;
     const World<Real> world(job.scene, job.slip, end, samples);
+    outcome.set_up_cpu_seconds = process_cpu_seconds() - cpu_start;
     const double pixels = static_cast<double>(width) * height * static_cast<double>(job.replicates.size());
 
     const double of_all = static_cast<double>(tiles_of(camera)) * static_cast<double>(job.replicates.size());
@@ -72,13 +73,13 @@ void render(const RenderJob &job, const TreeEnd<Real> &end, const std::function<
 
 TracerOutcome trace(const RenderJob &job, const TracerSettings &settings,
                     const std::function<void(double)> &on_progress) {
+    const auto start = std::chrono::steady_clock::now();
+    const double cpu_start = process_cpu_seconds();
     const Needs n = needs(job.scene);
     if (n.caustics) throw Error(Exit::bad_data, "the tracer does not follow caustics onto diffuse surfaces");
     if (n.environment_on_diffuse)
         throw Error(Exit::bad_data,
                     "the tracer lights diffuse surfaces by parallel lights only: give the environment a dome of them");
-    const auto start = std::chrono::steady_clock::now();
-    const double cpu_start = process_cpu_seconds();
     TracerOutcome outcome;
     const bool roulette = settings.transport == Transport::roulette;
     tbb::task_arena arena(job.threads > 0 ? job.threads : tbb::task_arena::automatic);
@@ -87,7 +88,7 @@ TracerOutcome trace(const RenderJob &job, const TracerSettings &settings,
             render<Real>(job,
                          {static_cast<Real>(roulette ? 0 : job.cut_weight),
                           static_cast<Real>(roulette ? settings.roulette_weight : 0)},
-                         on_progress, outcome);
+                         on_progress, cpu_start, outcome);
         };
         switch (settings.precision) {
         case Precision::single_precision:
