@@ -4,9 +4,11 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "scenes/scene.h"
+#include "verifier/tracer/sights.h"
 
 namespace threefold::tracer {
 
@@ -31,20 +33,28 @@ public:
     Rgb colour(std::size_t object, double u, double v) const {
         const Look &look = paints_[object];
         switch (look.kind) {
-        case Kind::constant:
+        case Sight::Kind::constant:
             return look.colour;
-        case Kind::coordinates:
+        case Sight::Kind::coordinates:
             return {u, v, 1};
-        case Kind::texture:
+        case Sight::Kind::texture:
             return bilinear(*look.texture, u, v);
         }
         return Rgb(0);
     }
 
+    /// For sights.h; none where the object's texture is too narrow for that.
+    std::optional<Sight> sight(std::size_t object) const {
+        const Look &look = paints_[object];
+        if (look.kind != Sight::Kind::texture) return Sight{look.kind, look.colour};
+        const Texture &t = *look.texture;
+        if (t.width < 2 || t.height < 2) return std::nullopt;
+        return Sight{look.kind, look.colour, t.rgb.data(), static_cast<double>(t.width), static_cast<double>(t.height)};
+    }
+
 private:
-    enum class Kind { constant, coordinates, texture };
     struct Look {
-        Kind kind = Kind::constant;
+        Sight::Kind kind = Sight::Kind::constant;
         bool shines = true;
         Rgb colour{0};
         const Texture *texture = nullptr; ///< owned by the scene
@@ -55,7 +65,7 @@ private:
             std::visit(overloaded{
                            [&](const Rgb &colour) { look.colour = colour; },
                            [&](const std::shared_ptr<const Texture> &texture) {
-                               look.kind = Kind::texture;
+                               look.kind = Sight::Kind::texture;
                                look.texture = texture.get();
                            },
                        },
@@ -67,7 +77,7 @@ private:
                            paint(diffuse.reflectance);
                        },
                        [&](const Emissive &emissive) { paint(emissive.radiance); },
-                       [&](const CoordinateCard &) { look.kind = Kind::coordinates; },
+                       [&](const CoordinateCard &) { look.kind = Sight::Kind::coordinates; },
                    },
                    surface);
     }

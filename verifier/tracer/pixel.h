@@ -111,8 +111,6 @@ private:
         return world_.lights().share(static_cast<std::size_t>(sample), pixel.turn);
     }
 
-    Rgb environment() const { return world_.scene().environment ? world_.scene().environment->radiance : Rgb(0); }
-
     /// The sum of the samples first to first + n - 1, but for the light of what waits for shadow rays.
     Rgb packet(const Pixel &pixel, int first, int n, PixelScratch<double> &scratch) const {
         RayPacket rays;
@@ -132,8 +130,11 @@ private:
                     if (entry.distance[l] < hits.distance[l]) inside |= 1u << l;
                 }
             }
-            for (std::uint32_t bits = active & ~inside; bits; bits &= bits - 1)
-                sum += arriving(hits, std::countr_zero(bits));
+            Lanes weight;
+            for (double &w : weight.v) w = 1;
+            Glance seen;
+            glance(world_.sights(), hits, weight, 1, active & ~inside, seen, sum);
+            read(seen, sum);
             if (inside) sum += glass(0, rays, entry, inside, pixel, first, scratch);
             return sum;
         }
@@ -167,7 +168,7 @@ private:
             if (orbs.size() > 1) intersect(orbs[i], rays, entry);
             sum += glass(i, rays, entry, inside, pixel, first, scratch);
         }
-        return sum + static_cast<double>(std::popcount(left)) * environment();
+        return sum + static_cast<double>(std::popcount(left)) * world_.environment();
     }
 
     /// Where the rays of `active` meet surfaces is in scratch.hits.
@@ -175,13 +176,6 @@ private:
                                 PixelScratch<double> &scratch) const {
         if (scratch.log) scratch.log->push_back({rays, active, false});
         return world_.surfaces().intersect(rays, active, limit, scratch.hits);
-    }
-
-    Rgb arriving(const RectangleHits &hits, int l) const {
-        const auto which = static_cast<int>(hits.which[l]);
-        if (which < 0) return environment();
-        return world_.paints().colour(world_.surfaces().rectangles()[static_cast<std::size_t>(which)].object, hits.u[l],
-                                      hits.v[l]);
     }
 
     /// What shines is given back; what reflects waits for its shadow rays.
@@ -212,8 +206,8 @@ private:
             if (trace_packet(world_.orbs()[orb], rays, entry, group, cut, key, p)) {
                 for (std::uint32_t bits = group; bits; bits &= bits - 1)
                     path.dropped += p.dropped[std::countr_zero(bits)];
-                for (std::size_t i = 0; i < p.count; ++i)
-                    sum += leaving(orb, p.exits[i], group, pixel, first, scratch);
+                sum += world_.is_plain() ? leaving_for_rectangles(group, scratch)
+                                         : leaving(orb, group, pixel, first, scratch);
                 continue;
             }
             for (std::uint32_t bits = group; bits; bits &= bits - 1) {
@@ -227,54 +221,71 @@ private:
         return sum;
     }
 
-    /// The light of one way out of an orb.
-    Rgb leaving(std::size_t orb, const ExitPacket &out, std::uint32_t asked, const Pixel &pixel, int first,
+    /// Faint light differs little from sample to sample: with roulette one of them stands for all, `factor` times.
+    std::uint32_t asked_of(const ExitPacket &out, std::uint32_t group, double &factor,
+                           PixelScratch<double> &scratch) const {
+        factor = 1;
+        const int n = std::popcount(group);
+        if (!(world_.end().roulette > 0 && out.greatest < world_.end().roulette && n > 1)) return group;
+        int skip = static_cast<int>(scratch.path.sampler->next() * n);
+        while (skip-- > 0) group &= group - 1;
+        factor = n;
+        return group & (~group + 1);
+    }
+
+    /// The light of all ways out of an orb, in a plain world: found one way ahead of what is seen there.
+    Rgb leaving_for_rectangles(std::uint32_t group, PixelScratch<double> &scratch) const {
+        const PacketScratch &p = scratch.packet;
+        Glance glances[2];
+        Rgb sum(0);
+        for (std::size_t i = 0; i < p.count; ++i) {
+            const ExitPacket &out = p.exits[i];
+            double factor = 1;
+            const std::uint32_t asked = asked_of(out, group, factor, scratch);
+            RectangleHits hits;
+            meet_rectangles(world_.surfaces().rectangles(), out.origin, out.direction, hits);
+            glance(world_.sights(), hits, out.weight, factor, asked, glances[i % 2], sum);
+            if (i > 0) read(glances[(i - 1) % 2], sum);
+        }
+        if (p.count > 0) read(glances[(p.count - 1) % 2], sum);
+        return sum;
+    }
+
+    /// The light of all ways out of an orb.
+    Rgb leaving(std::size_t orb, std::uint32_t group, const Pixel &pixel, int first,
                 PixelScratch<double> &scratch) const {
         auto &path = scratch.path;
         Rgb sum(0);
-        // Faint light differs little from sample to sample: with roulette one of them stands for all.
-        double factor = 1;
-        const int n = std::popcount(asked);
-        if (world_.end().roulette > 0 && out.greatest < world_.end().roulette && n > 1) {
-            int skip = static_cast<int>(path.sampler->next() * n);
-            while (skip-- > 0) asked &= asked - 1;
-            asked &= ~(asked - 1);
-            factor = n;
-        }
-        if (world_.is_plain()) {
-            RectangleHits hits;
-            meet_rectangles(world_.surfaces().rectangles(), out.origin, out.direction, hits);
+        for (std::size_t i = 0; i < scratch.packet.count; ++i) {
+            const ExitPacket &out = scratch.packet.exits[i];
+            double factor = 1;
+            std::uint32_t asked = asked_of(out, group, factor, scratch);
+            for (std::uint32_t bits = asked; bits; bits &= bits - 1)
+                if (const int l = std::countr_zero(bits); !(out.weight[l] > 0)) asked &= ~(1u << l);
+            const RayPacket rays{out.origin, out.direction};
+            // Light that meets one more orb has a tree of its own.
+            for (std::size_t k = 0; k < world_.orbs().size(); ++k) {
+                if (k == orb) continue;
+                EntryPacket entry;
+                intersect(world_.orbs()[k], rays, entry);
+                for (std::uint32_t bits = entry.hits & asked; bits; bits &= bits - 1) {
+                    const int l = std::countr_zero(bits);
+                    const double weight = factor * out.weight[l];
+                    path.lights = &lights_of(pixel, first + l);
+                    sum += weight * world_.radiance({rays.origin.at(l), rays.direction.at(l)}, weight, orb, 1, path);
+                }
+                asked &= ~entry.hits;
+            }
+            if (!asked) continue;
+            Lanes all_the_way;
+            for (double &limit : all_the_way.v) limit = std::numeric_limits<double>::infinity();
+            const std::uint32_t met = meet_surfaces(rays, asked, all_the_way, scratch);
             for (; asked; asked &= asked - 1) {
                 const int l = std::countr_zero(asked);
-                sum += factor * out.weight[l] * arriving(hits, l);
-            }
-            return sum;
-        }
-        for (std::uint32_t bits = asked; bits; bits &= bits - 1)
-            if (const int l = std::countr_zero(bits); !(out.weight[l] > 0)) asked &= ~(1u << l);
-        const RayPacket rays{out.origin, out.direction};
-        // Light that meets one more orb has a tree of its own.
-        for (std::size_t i = 0; i < world_.orbs().size(); ++i) {
-            if (i == orb) continue;
-            EntryPacket entry;
-            intersect(world_.orbs()[i], rays, entry);
-            for (std::uint32_t bits = entry.hits & asked; bits; bits &= bits - 1) {
-                const int l = std::countr_zero(bits);
                 const double weight = factor * out.weight[l];
-                path.lights = &lights_of(pixel, first + l);
-                sum += weight * world_.radiance({rays.origin.at(l), rays.direction.at(l)}, weight, orb, 1, path);
+                sum += met >> l & 1u ? arriving(scratch.hits[l], weight, pixel, first + l, scratch)
+                                     : weight * world_.environment();
             }
-            asked &= ~entry.hits;
-        }
-        if (!asked) return sum;
-        Lanes all_the_way;
-        for (double &limit : all_the_way.v) limit = std::numeric_limits<double>::infinity();
-        const auto &hits = scratch.hits;
-        const std::uint32_t met = meet_surfaces(rays, asked, all_the_way, scratch);
-        for (; asked; asked &= asked - 1) {
-            const int l = std::countr_zero(asked);
-            const double weight = factor * out.weight[l];
-            sum += met >> l & 1u ? arriving(hits[l], weight, pixel, first + l, scratch) : weight * environment();
         }
         return sum;
     }

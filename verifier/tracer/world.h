@@ -12,6 +12,7 @@
 #include "verifier/tracer/orb.h"
 #include "verifier/tracer/paints.h"
 #include "verifier/tracer/sampler.h"
+#include "verifier/tracer/sights.h"
 #include "verifier/tracer/surfaces.h"
 
 namespace threefold::tracer {
@@ -50,7 +51,18 @@ class World {
 public:
     World(const Scene &scene, const Slip &slip, const TreeEnd<Real> &end, int samples)
         : scene_(scene), end_(end), orbs_(orbs_of<Real>(scene, slip)), surfaces_(scene, std::is_same_v<Real, double>),
-          paints_(scene), lights_(scene, samples) {}
+          paints_(scene), lights_(scene, samples) {
+        if (!paints_.all_shine() || !surfaces_.only_rectangles() || orbs_.size() > 1) return;
+        sights_.push_back({Sight::Kind::constant, environment()});
+        for (const Rectangle &rectangle : surfaces_.rectangles()) {
+            const auto sight = paints_.sight(rectangle.object);
+            if (!sight) {
+                sights_.clear();
+                return;
+            }
+            sights_.push_back(*sight);
+        }
+    }
 
     /// What one thread and one sample carry along.
     struct Path {
@@ -66,8 +78,11 @@ public:
     const std::vector<Orb<Real>> &orbs() const { return orbs_; }
     const Surfaces &surfaces() const { return surfaces_; }
     const Paints &paints() const { return paints_; }
-    /// Do all rays that leave glass end on one of a few rectangles that shine, or in the environment?
-    bool is_plain() const { return paints_.all_shine() && surfaces_.only_rectangles() && orbs_.size() <= 1; }
+    /// Do all rays that leave glass end on one of a few rectangles that shine, or in the environment? Then sights() is
+    /// what they see.
+    bool is_plain() const { return !sights_.empty(); }
+    const std::vector<Sight> &sights() const { return sights_; }
+    Rgb environment() const { return scene_.environment ? scene_.environment->radiance : Rgb(0); }
 
     /// `left` is the orb that the ray has just left, if any: it cannot meet it again.
     Rgb radiance(const RayOf<Real> &ray, double weight, std::size_t left, int depth, Path &path) const {
@@ -77,7 +92,7 @@ public:
         const auto hit = surfaces_.intersect(exact);
         if (hit && (orb == none || hit->distance <= static_cast<double>(entry.distance)))
             return leaving(*hit, *path.lights);
-        if (orb == none) return scene_.environment ? scene_.environment->radiance : Rgb(0);
+        if (orb == none) return environment();
         if (depth >= greatest_depth) {
             path.dropped += weight;
             return Rgb(0);
@@ -148,6 +163,7 @@ private:
     Surfaces surfaces_;
     Paints paints_;
     Lights lights_;
+    std::vector<Sight> sights_;
 };
 
 } // namespace threefold::tracer
