@@ -14,6 +14,7 @@
 #include "scenes/catalogue/catalogue.h"
 #include "scenes/validate.h"
 #include "verifier/tracer/pixel.h"
+#include "verifier/tracer/tracer.h"
 
 namespace threefold {
 namespace {
@@ -241,6 +242,49 @@ void bare_packet(benchmark::State &state) {
         }
     state.SetItemsProcessed(state.iterations() * p.count);
 }
+
+/// A hilly net of about so many triangles behind the orb, lit from aside: how the cost grows with a mesh.
+Scene hills(double triangles) {
+    const auto side = static_cast<unsigned>(std::lround(std::sqrt(triangles / 2))) + 1;
+    Mesh mesh;
+    for (unsigned row = 0; row < side; ++row)
+        for (unsigned column = 0; column < side; ++column) {
+            const double x = 2.0 * column / (side - 1) - 1, y = 2.0 * row / (side - 1) - 1;
+            mesh.vertices_mm.emplace_back(150 * x, 150 * y, -250 + 12 * std::sin(9 * x + 2 * y) * std::cos(7 * y - x));
+        }
+    for (unsigned row = 0; row + 1 < side; ++row)
+        for (unsigned column = 0; column + 1 < side; ++column) {
+            const unsigned a = row * side + column, b = a + 1, c = a + side, d = c + 1;
+            mesh.triangles.emplace_back(a, b, d);
+            mesh.triangles.emplace_back(a, d, c);
+        }
+    mesh.surface = Diffuse{Rgb(0.5)};
+    Scene scene;
+    scene.objects = {{"orb", GlassShell{}}, {"hills", std::move(mesh)}};
+    scene.lights = {{Vec3(-1, -1, -0.5), Rgb(1)}, {Vec3(0.3, -1, -1), Rgb(1)}};
+    scene.camera.horizontal_fov_deg = 18;
+    return scene;
+}
+
+void mesh_of(benchmark::State &state) {
+    RenderJob job;
+    job.scene = hills(static_cast<double>(state.range(0)));
+    job.samples_per_pixel = 8;
+    job.cut_weight = 1e-2;
+    job.threads = 1;
+    double set_up = 0, all = 0;
+    for (auto _ : state) {
+        const TracerOutcome outcome = trace(job);
+        set_up += outcome.set_up_cpu_seconds;
+        all += outcome.cpu_seconds;
+    }
+    const auto n = static_cast<double>(state.iterations());
+    state.counters["render_ms"] = 1e3 * (all - set_up) / n;
+    state.counters["set_up_ms"] = 1e3 * set_up / n;
+    state.counters["triangles"] =
+        static_cast<double>(std::get<Mesh>(job.scene.objects[1].shape).triangles.size());
+}
+BENCHMARK(mesh_of)->Unit(benchmark::kMillisecond)->Arg(1000)->Arg(10000)->Arg(100000)->Arg(1000000);
 
 const int registered = [] {
     const auto add = [](const char *name, auto *function, std::size_t scene) {

@@ -271,6 +271,12 @@ void camera_rays(const Film &film, const PixelSampler &sampler, std::uint32_t fi
         across[l] = owen_scramble(reverse_bits(k), key_x);
         down[l] = owen_scramble(second_dimension(k), key_y);
     }
+    if (!sampler.is_sobol())
+        for (int l = 0; l < lanes; ++l) {
+            const Vec2 at = sampler.position(first + static_cast<std::uint32_t>(l));
+            across[l] = static_cast<std::uint32_t>(at.x * 0x1p32);
+            down[l] = static_cast<std::uint32_t>(at.y * 0x1p32);
+        }
     const CameraFrame &f = film.frame();
     const Vec3 eye = film.eye_mm();
     const double pixel = film.pixel(), half = 2147483648.0;

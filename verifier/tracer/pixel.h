@@ -22,8 +22,9 @@ struct PixelScratch {
 template <class Real>
 class PixelRenderer {
 public:
-    PixelRenderer(const World<Real> &world, const RenderJob &job, const Replicate &replicate)
-        : world_(world), film_(job.scene.camera), camera_(job.scene.camera), replicate_(replicate),
+    PixelRenderer(const World<Real> &world, const RenderJob &job, const Replicate &replicate,
+                  Sampler sampler = Sampler::sobol)
+        : world_(world), film_(job.scene.camera), camera_(job.scene.camera), replicate_(replicate), sampler_(sampler),
           samples_(job.sampling == Sampling::box ? job.samples_per_pixel : 1), box_(job.sampling == Sampling::box) {}
 
     /// Adds to pixels[row * width + column], some of it only with `finish`. `missing`: weight of the branches that were
@@ -47,12 +48,14 @@ public:
                 // Where no glass is seen samples cost little: there are more of them.
                 if (world_.is_plain() && sees_no_glass(column, row)) samples *= more_beside_glass;
                 pixel.share = 1.0 / samples;
+                sampler.use(sampler_, samples);
                 for (int k = 0; k < samples; k += lanes) {
                     sum += packet(pixel, k, std::min(lanes, samples - k), scratch);
                     if (scratch.shadows.size() > many_shadow_rays) finish(scratch, pixels);
                 }
             }
         }
+        if (!packets) sampler.use(sampler_, samples);
         for (int k = 0; !packets && k < samples; ++k) {
             path.lights = &world_.lights().share(static_cast<std::size_t>(k), turn);
             const Ray ray = film_.ray(position(sampler, column, row, k));
@@ -294,6 +297,7 @@ private:
     Film film_;
     const Camera &camera_;
     const Replicate &replicate_;
+    Sampler sampler_;
     int samples_;
     bool box_;
 };

@@ -31,7 +31,7 @@ double process_cpu_seconds() {
 
 template <class Real>
 void render(const RenderJob &job, const TreeEnd<Real> &end, const std::function<void(double)> &on_progress,
-            double cpu_start, TracerOutcome &outcome) {
+            Sampler sampler, double cpu_start, TracerOutcome &outcome) {
     const Camera &camera = job.scene.camera;
     const int width = camera.image_width_px(), height = camera.image_height_px();
     const int samples = job.sampling == Sampling::box ? job.samples_per_pixel : 1;
@@ -47,7 +47,7 @@ void render(const RenderJob &job, const TreeEnd<Real> &end, const std::function<
     for (const Replicate &replicate : job.replicates) {
         Image image(width, height);
         std::vector<double> missing(image.pixels.size());
-        const PixelRenderer<Real> pixel(world, job, replicate);
+        const PixelRenderer<Real> pixel(world, job, replicate, sampler);
         tbb::parallel_for(tbb::blocked_range<int>(0, tiles_of(camera)), [&](const auto &tiles) {
             PixelScratch<Real> &scratch = scratches.local();
             for (int tile = tiles.begin(); tile != tiles.end(); ++tile) {
@@ -88,7 +88,7 @@ TracerOutcome trace(const RenderJob &job, const TracerSettings &settings,
             render<Real>(job,
                          {static_cast<Real>(roulette ? 0 : job.cut_weight),
                           static_cast<Real>(roulette ? settings.roulette_weight : 0)},
-                         on_progress, cpu_start, outcome);
+                         on_progress, settings.sampler, cpu_start, outcome);
         };
         switch (settings.precision) {
         case Precision::single_precision:

@@ -7,6 +7,7 @@
 
 #include "exporter/image/image.h"
 #include "exporter/job.h"
+#include "verifier/tracer/sampler.h"
 
 namespace threefold {
 
@@ -21,6 +22,7 @@ struct TracerSettings {
     Precision precision = Precision::double_precision;
     Transport transport = Transport::tree;
     double roulette_weight = 1e-2;
+    Sampler sampler = Sampler::sobol;
 };
 
 struct TracerOutcome {
