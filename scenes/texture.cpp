@@ -34,9 +34,16 @@ Rgb greatest_value(const Paint &paint) {
     return std::visit(overloaded{
                           [](const Rgb &colour) { return colour; },
                           [](const std::shared_ptr<const Texture> &texture) {
-                              std::uint16_t most[3]{};
-                              for (std::size_t i = 0; i < texture->rgb.size(); ++i)
-                                  most[i % 3] = std::max(most[i % 3], texture->rgb[i]);
+                              // Many texels side by side: pictures are asked for this before each is traced.
+                              constexpr std::size_t side_by_side = 24;
+                              std::uint16_t most[side_by_side]{};
+                              const std::uint16_t *rgb = texture->rgb.data();
+                              const std::size_t n = texture->rgb.size(), whole = n / side_by_side * side_by_side;
+                              for (std::size_t i = 0; i < whole; i += side_by_side)
+                                  for (std::size_t k = 0; k < side_by_side; ++k)
+                                      most[k] = rgb[i + k] > most[k] ? rgb[i + k] : most[k];
+                              for (std::size_t i = whole; i < n; ++i) most[i % 3] = std::max(most[i % 3], rgb[i]);
+                              for (std::size_t k = 3; k < side_by_side; ++k) most[k % 3] = std::max(most[k % 3], most[k]);
                               return Rgb(most[0], most[1], most[2]) / 65535.0;
                           },
                       },

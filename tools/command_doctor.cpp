@@ -12,7 +12,7 @@
 #include "exporter/temporary_folder.h"
 #include "tools/commands.h"
 #include "verifier/check/check.h"
-#include "verifier/tracer/surfaces.h"
+#include "verifier/tracer/embree_world.h"
 
 namespace threefold {
 

@@ -18,7 +18,7 @@ namespace threefold {
 
 namespace fs = std::filesystem;
 
-TracerSettings tracer_settings(const std::string &precision, const std::string &transport) {
+TracerSettings tracer_settings(const std::string &precision, const std::string &transport, const std::string &sampler) {
     TracerSettings settings;
     if (precision == "float")
         settings.precision = Precision::single_precision;
@@ -28,6 +28,12 @@ TracerSettings tracer_settings(const std::string &precision, const std::string &
         settings.transport = Transport::roulette;
     else if (transport != "tree")
         throw Error(Exit::usage, unknown_name("transport", transport, {"tree", "roulette"}));
+    if (sampler == "stratified")
+        settings.sampler = Sampler::stratified;
+    else if (sampler == "random")
+        settings.sampler = Sampler::random;
+    else if (sampler != "sobol")
+        throw Error(Exit::usage, unknown_name("sampler", sampler, {"sobol", "stratified", "random"}));
     return settings;
 }
 
@@ -45,7 +51,7 @@ Exit command_render(const Shop &shop, const RenderRequest &request) {
     if (!(cut_weight >= 1e-12 && cut_weight <= 0.5))
         throw Error(Exit::bad_data, fmt::format("--cut must lie in [1e-12, 0.5], not {}", cut_weight));
     const std::chrono::milliseconds time_limit = to_time_limit(request.time_limit_s);
-    const TracerSettings tracer = tracer_settings(request.precision, request.transport);
+    const TracerSettings tracer = tracer_settings(request.precision, request.transport, request.sampler);
     const Witness witness = find_witnesses({request.with}).front();
     if (output.has_parent_path()) make_folder(output.parent_path());
     RenderJob job;

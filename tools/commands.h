@@ -71,7 +71,7 @@ struct RenderRequest {
     std::uint64_t seed = 1;
     bool pixel_centres = false;
     std::optional<double> cut_weight; ///< empty: 1e-6 by our tracer, which merges branches, 1e-5 by the others
-    std::string precision = "double", transport = "tree";
+    std::string precision = "double", transport = "tree", sampler = "sobol";
     double time_limit_s = 3600;
 };
 Exit command_render(const Shop &shop, const RenderRequest &request);
@@ -133,8 +133,9 @@ Exit command_gallery(const Shop &shop, const GalleryCommand &command);
 /// Those asked for by name, which must be there; all, present or not, when none is named.
 std::vector<Witness> asked_witnesses(const std::vector<std::string> &names);
 
-/// Precision and transport by their names on the command line.
-TracerSettings tracer_settings(const std::string &precision, const std::string &transport);
+/// Precision, transport and sampler by their names on the command line.
+TracerSettings tracer_settings(const std::string &precision, const std::string &transport,
+                               const std::string &sampler = "sobol");
 
 /// A line on stderr; where that cannot be written, there is nobody to tell.
 void say(const std::string &line);

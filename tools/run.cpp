@@ -183,6 +183,10 @@ int run(int argc, char **argv, const std::vector<SceneRecipe> &scenes, const std
     render.add_option("--precision", render_request.precision, "Tracer: float or double")->capture_default_str();
     render.add_option("--transport", render_request.transport, "Tracer: tree (all branches) or roulette")
         ->capture_default_str();
+    render
+        .add_option("--sampler", render_request.sampler,
+                    "Tracer: where in a pixel samples lie: sobol (scrambled, the least noise), stratified or random")
+        ->capture_default_str();
     render.add_option("--keep", render_request.keep, "Keep generated inputs, log and raw pictures in this folder");
     render.add_option("--timeout", render_request.time_limit_s, "Seconds until a renderer is given up")
         ->capture_default_str()

@@ -2,16 +2,6 @@
 #include "verifier/tracer/packet.h"
 
 #include <cstdint>
-#include <limits>
-
-// One source, several instruction sets. The vectoriser sees whole loops: helpers are inlined by force.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
-#define THREEFOLD_VECTOR __attribute__((target_clones("arch=skylake-avx512", "avx2", "default")))
-#else
-#define THREEFOLD_VECTOR
-#endif
-#define THREEFOLD_LANES _Pragma("omp simd")
-#define THREEFOLD_INLINE inline __attribute__((always_inline))
 
 namespace threefold::tracer {
 
@@ -34,6 +24,11 @@ THREEFOLD_INLINE double greatest_of(const Lanes &lanes_of) {
 THREEFOLD_INLINE double cosine_of(double sine) {
     const double square = (1 - sine) * (1 + sine);
     return __builtin_sqrt(square > 0 ? square : 0);
+}
+
+/// Of the angle at the hollow's sphere; 1 or more: the light passes the hollow by.
+THREEFOLD_INLINE double inner_sine_of(const Orb<double> &orb, double impact) {
+    return orb.inner > 0 ? orb.outer * (impact / orb.outer / orb.index) / orb.inner : 2;
 }
 
 /// All that is the same wherever the light is.
@@ -276,6 +271,12 @@ void camera_rays(const Film &film, const PixelSampler &sampler, std::uint32_t fi
         across[l] = owen_scramble(reverse_bits(k), key_x);
         down[l] = owen_scramble(second_dimension(k), key_y);
     }
+    if (!sampler.is_sobol())
+        for (int l = 0; l < lanes; ++l) {
+            const Vec2 at = sampler.position(first + static_cast<std::uint32_t>(l));
+            across[l] = static_cast<std::uint32_t>(at.x * 0x1p32);
+            down[l] = static_cast<std::uint32_t>(at.y * 0x1p32);
+        }
     const CameraFrame &f = film.frame();
     const Vec3 eye = film.eye_mm();
     const double pixel = film.pixel(), half = 2147483648.0;
@@ -326,11 +327,18 @@ void intersect(const Orb<double> &orb, const RayPacket &rays, EntryPacket &entry
     for (int l = 0; l < lanes; ++l) entry.hits |= static_cast<std::uint32_t>(hit.v[l] > 0) << l;
 }
 
+std::uint32_t same_way(const Orb<double> &orb, const EntryPacket &entry, std::uint32_t active) {
+    std::uint32_t by_hollow = 0;
+    for (int l = 0; l < lanes; ++l) by_hollow |= static_cast<std::uint32_t>(inner_sine_of(orb, entry.impact[l]) < 1) << l;
+    const std::uint32_t first = active & (~active + 1);
+    return active & (by_hollow & first ? by_hollow : ~by_hollow);
+}
+
 THREEFOLD_VECTOR
 bool trace_packet(const Orb<double> &orb, const RayPacket &rays, const EntryPacket &entry, std::uint32_t active,
                   double cut, std::uint64_t roulette, PacketScratch &scratch) {
     if (orb.coating != Coating::fresnel || active == 0) return false;
-    const double R = orb.outer, n = orb.index, tau = orb.interface_transmittance, r = orb.inner;
+    const double R = orb.outer, n = orb.index, tau = orb.interface_transmittance;
     const double hollow_n = orb.hollow_index, inner_tau = orb.inner_transmittance;
     Lanes on, inner_sine, glass_sine, glass_cosine;
     Constants k;
@@ -341,7 +349,7 @@ bool trace_packet(const Orb<double> &orb, const RayPacket &rays, const EntryPack
     THREEFOLD_LANES
     for (int l = 0; l < lanes; ++l) {
         glass_sine.v[l] = entry.impact.v[l] / R / n;
-        inner_sine.v[l] = r > 0 ? R * glass_sine.v[l] / r : 2;
+        inner_sine.v[l] = inner_sine_of(orb, entry.impact.v[l]);
     }
     THREEFOLD_LANES
     for (int l = 0; l < lanes; ++l) by_hollow |= static_cast<std::uint32_t>(inner_sine.v[l] < 1) << l;
@@ -409,41 +417,6 @@ bool trace_packet(const Orb<double> &orb, const RayPacket &rays, const EntryPack
     }
     follow_shell(orb, k, end, scratch);
     return true;
-}
-
-THREEFOLD_VECTOR
-void meet_rectangles(const std::vector<Rectangle> &rectangles, const LaneVectors &origin, const LaneVectors &direction,
-                     RectangleHits &hits) {
-    constexpr double infinite = std::numeric_limits<double>::infinity();
-    THREEFOLD_LANES
-    for (int l = 0; l < lanes; ++l) {
-        hits.which.v[l] = -1;
-        hits.distance.v[l] = infinite;
-        hits.u.v[l] = hits.v.v[l] = 0;
-    }
-    for (std::size_t i = 0; i < rectangles.size(); ++i) {
-        const Rectangle &q = rectangles[i];
-        const double number = static_cast<double>(i);
-        THREEFOLD_LANES
-        for (int l = 0; l < lanes; ++l) {
-            const double ox = origin.x.v[l], oy = origin.y.v[l], oz = origin.z.v[l];
-            const double dx = direction.x.v[l], dy = direction.y.v[l], dz = direction.z.v[l];
-            const double slope = dx * q.normal.x + dy * q.normal.y + dz * q.normal.z;
-            const double distance =
-                ((q.centre.x - ox) * q.normal.x + (q.centre.y - oy) * q.normal.y + (q.centre.z - oz) * q.normal.z) /
-                slope;
-            const double px = ox + distance * dx - q.centre.x, py = oy + distance * dy - q.centre.y,
-                         pz = oz + distance * dz - q.centre.z;
-            const double u = 0.5 + (px * q.along_u.x + py * q.along_u.y + pz * q.along_u.z);
-            const double v = 0.5 + (px * q.along_v.x + py * q.along_v.y + pz * q.along_v.z);
-            const bool nearer =
-                (distance >= 0) & (distance < hits.distance.v[l]) & (u >= 0) & (u <= 1) & (v >= 0) & (v <= 1);
-            hits.which.v[l] = nearer ? number : hits.which.v[l];
-            hits.distance.v[l] = nearer ? distance : hits.distance.v[l];
-            hits.u.v[l] = nearer ? u : hits.u.v[l];
-            hits.v.v[l] = nearer ? v : hits.v.v[l];
-        }
-    }
 }
 
 } // namespace threefold::tracer

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The radiance of a pixel: its samples, eight at once where they enter glass by double precision.
+// The radiance of a pixel: its samples, eight at once by double precision.
 #pragma once
 
 #include <bit>
 
+#include "verifier/tracer/packet.h"
+#include "verifier/tracer/shadow_rays.h"
 #include "verifier/tracer/world.h"
 
 namespace threefold::tracer {
@@ -12,17 +14,22 @@ template <class Real>
 struct PixelScratch {
     typename World<Real>::Path path;
     PacketScratch packet;
+    ShadowRays shadows;
+    SurfaceHit hits[lanes];
+    std::vector<CastRays> *log = nullptr; ///< of the rays that ask for surfaces, for those who measure
 };
 
 template <class Real>
 class PixelRenderer {
 public:
-    PixelRenderer(const World<Real> &world, const RenderJob &job, const Replicate &replicate)
-        : world_(world), film_(job.scene.camera), camera_(job.scene.camera), replicate_(replicate),
+    PixelRenderer(const World<Real> &world, const RenderJob &job, const Replicate &replicate,
+                  Sampler sampler = Sampler::sobol)
+        : world_(world), film_(job.scene.camera), camera_(job.scene.camera), replicate_(replicate), sampler_(sampler),
           samples_(job.sampling == Sampling::box ? job.samples_per_pixel : 1), box_(job.sampling == Sampling::box) {}
 
-    /// `missing`: weight of the branches that were dropped, mean over the samples.
-    Rgb operator()(int column, int row, PixelScratch<Real> &scratch, double &missing) const {
+    /// Adds to pixels[row * width + column], some of it only with `finish`. `missing`: weight of the branches that were
+    /// dropped, mean over the samples.
+    void operator()(int column, int row, PixelScratch<Real> &scratch, std::vector<Rgb> &pixels, double &missing) const {
         auto &path = scratch.path;
         PixelSampler sampler(replicate_.seed, column, row);
         path.sampler = &sampler;
@@ -30,27 +37,52 @@ public:
         const auto turn = static_cast<std::size_t>(sampler.next() * 65536);
         Rgb sum(0);
         int samples = samples_;
+        Pixel pixel{column, row,
+                    static_cast<std::uint32_t>(row) * static_cast<std::uint32_t>(camera_.image_width_px()) +
+                        static_cast<std::uint32_t>(column),
+                    turn, 1};
+        bool packets = false;
         if constexpr (std::is_same_v<Real, double>) {
-            if (box_) {
+            packets = box_;
+            if (packets) {
                 // Where no glass is seen samples cost little: there are more of them.
                 if (world_.is_plain() && sees_no_glass(column, row)) samples *= more_beside_glass;
-                for (int k = 0; k < samples; k += lanes)
-                    sum += packet(column, row, k, std::min(lanes, samples - k), turn, scratch);
-                missing = path.dropped / samples;
-                return sum / static_cast<double>(samples);
+                pixel.share = 1.0 / samples;
+                sampler.use(sampler_, samples);
+                for (int k = 0; k < samples; k += lanes) {
+                    sum += packet(pixel, k, std::min(lanes, samples - k), scratch);
+                    if (scratch.shadows.size() > many_shadow_rays) finish(scratch, pixels);
+                }
             }
         }
-        for (int k = 0; k < samples; ++k) {
+        if (!packets) sampler.use(sampler_, samples);
+        for (int k = 0; !packets && k < samples; ++k) {
             path.lights = &world_.lights().share(static_cast<std::size_t>(k), turn);
             const Ray ray = film_.ray(position(sampler, column, row, k));
             sum += world_.radiance({Vector<Real>(ray.origin_mm), Vector<Real>(ray.direction)}, 1, none, 0, path);
         }
         missing = path.dropped / samples;
-        return sum / static_cast<double>(samples);
+        pixels[pixel.number] += sum / static_cast<double>(samples);
+    }
+
+    /// Adds what shadow rays were gathered for.
+    void finish(PixelScratch<Real> &scratch, std::vector<Rgb> &pixels) const {
+        if constexpr (std::is_same_v<Real, double>)
+            if (scratch.shadows.size() > 0)
+                scratch.shadows.cast(world_.surfaces(), world_.orbs(), world_.scene().glass_shadow,
+                                     world_.lights().all(), pixels, scratch.log);
     }
 
 private:
     static constexpr int more_beside_glass = 4;
+    static constexpr std::size_t many_shadow_rays = 1 << 14; ///< they still fit a processor's cache
+
+    struct Pixel {
+        int column, row;
+        std::uint32_t number;
+        std::size_t turn; ///< of the shares of light
+        double share;     ///< of a sample in the pixel
+    };
 
     Vec2 position(const PixelSampler &sampler, int column, int row, int k) const {
         const Vec2 at =
@@ -78,62 +110,89 @@ private:
         return true;
     }
 
-    /// The sum of the samples first to first + n - 1.
-    Rgb packet(int column, int row, int first, int n, std::size_t turn, PixelScratch<double> &scratch) const {
-        auto &path = scratch.path;
+    const std::vector<Light> &lights_of(const Pixel &pixel, int sample) const {
+        return world_.lights().share(static_cast<std::size_t>(sample), pixel.turn);
+    }
+
+    /// The sum of the samples first to first + n - 1, but for the light of what waits for shadow rays.
+    Rgb packet(const Pixel &pixel, int first, int n, PixelScratch<double> &scratch) const {
         RayPacket rays;
-        camera_rays(film_, *path.sampler, static_cast<std::uint32_t>(first),
-                    Vec2(column, row) + camera_.film_offset_px + replicate_.film_offset_px, rays);
-        std::uint32_t waiting = (1u << n) - 1;
-        const auto light_of = [&](int l) { return &world_.lights().share(static_cast<std::size_t>(first + l), turn); };
+        camera_rays(film_, *scratch.path.sampler, static_cast<std::uint32_t>(first),
+                    Vec2(pixel.column, pixel.row) + camera_.film_offset_px + replicate_.film_offset_px, rays);
+        const std::uint32_t active = all_lanes >> (lanes - n);
         Rgb sum(0);
+        EntryPacket entry;
         if (world_.is_plain()) {
             RectangleHits hits;
             meet_rectangles(world_.surfaces().rectangles(), rays.origin, rays.direction, hits);
-            EntryPacket entry;
             std::uint32_t inside = 0;
             if (!world_.orbs().empty()) {
                 intersect(world_.orbs()[0], rays, entry);
-                for (std::uint32_t bits = entry.hits & waiting; bits; bits &= bits - 1) {
+                for (std::uint32_t bits = entry.hits & active; bits; bits &= bits - 1) {
                     const int l = std::countr_zero(bits);
                     if (entry.distance[l] < hits.distance[l]) inside |= 1u << l;
                 }
             }
-            for (std::uint32_t bits = waiting & ~inside; bits; bits &= bits - 1)
-                sum += arriving(hits, std::countr_zero(bits));
-            if (inside) sum += glass(0, rays, entry, inside, light_of, scratch);
+            Lanes weight;
+            for (double &w : weight.v) w = 1;
+            Glance seen;
+            glance(world_.sights(), hits, weight, 1, active & ~inside, seen, sum);
+            read(seen, sum);
+            if (inside) sum += glass(0, rays, entry, inside, pixel, first, scratch);
             return sum;
         }
-        // Several orbs, meshes or diffuse surfaces: each ray finds what it meets; rays into the same orb stay together.
-        for (std::size_t i = 0; i < world_.orbs().size() && waiting; ++i) {
-            EntryPacket entry;
-            intersect(world_.orbs()[i], rays, entry);
-            std::uint32_t inside = 0;
-            for (std::uint32_t bits = entry.hits & waiting; bits; bits &= bits - 1) {
+        // The nearest orb of each ray, unless a surface is nearer.
+        const auto &orbs = world_.orbs();
+        Lanes nearest;
+        for (double &distance : nearest.v) distance = std::numeric_limits<double>::infinity();
+        std::size_t orb_of[lanes] = {none, none, none, none, none, none, none, none};
+        for (std::size_t i = 0; i < orbs.size(); ++i) {
+            intersect(orbs[i], rays, entry);
+            for (std::uint32_t bits = entry.hits & active; bits; bits &= bits - 1) {
                 const int l = std::countr_zero(bits);
-                if (world_.meets_first(i, {rays.origin.at(l), rays.direction.at(l)}, entry.distance[l]))
-                    inside |= 1u << l;
+                if (!(entry.distance[l] < nearest[l])) continue;
+                nearest[l] = entry.distance[l];
+                orb_of[l] = i;
             }
-            if (inside) sum += glass(i, rays, entry, inside, light_of, scratch);
-            waiting &= ~inside;
         }
-        for (; waiting; waiting &= waiting - 1) {
-            const int l = std::countr_zero(waiting);
-            path.lights = light_of(l);
-            sum += world_.radiance({rays.origin.at(l), rays.direction.at(l)}, 1, none, 0, path);
+        const auto &hits = scratch.hits;
+        const std::uint32_t met = meet_surfaces(rays, active, nearest, scratch);
+        std::uint32_t left = active & ~met;
+        for (std::uint32_t bits = met; bits; bits &= bits - 1) {
+            const int l = std::countr_zero(bits);
+            sum += arriving(hits[l], 1, pixel, first + l, scratch);
         }
-        return sum;
+        for (std::size_t i = 0; i < orbs.size() && left; ++i) {
+            std::uint32_t inside = 0;
+            for (int l = 0; l < lanes; ++l) inside |= static_cast<std::uint32_t>(orb_of[l] == i) << l;
+            inside &= left;
+            left &= ~inside;
+            if (!inside) continue;
+            if (orbs.size() > 1) intersect(orbs[i], rays, entry);
+            sum += glass(i, rays, entry, inside, pixel, first, scratch);
+        }
+        return sum + static_cast<double>(std::popcount(left)) * world_.environment();
     }
 
-    Rgb arriving(const RectangleHits &hits, int l) const {
-        const auto which = static_cast<int>(hits.which[l]);
-        if (which < 0) return world_.scene().environment ? world_.scene().environment->radiance : Rgb(0);
-        return world_.emitters().radiance(world_.surfaces().rectangles()[static_cast<std::size_t>(which)].object,
-                                          hits.u[l], hits.v[l]);
+    /// Where the rays of `active` meet surfaces is in scratch.hits.
+    std::uint32_t meet_surfaces(const RayPacket &rays, std::uint32_t active, const Lanes &limit,
+                                PixelScratch<double> &scratch) const {
+        if (scratch.log) scratch.log->push_back({rays, active, false});
+        return world_.surfaces().intersect(rays, active, limit, scratch.hits);
     }
 
-    Rgb glass(std::size_t orb, const RayPacket &rays, const EntryPacket &entry, std::uint32_t inside, auto light_of,
-              PixelScratch<double> &scratch) const {
+    /// What shines is given back; what reflects waits for its shadow rays.
+    Rgb arriving(const SurfaceHit &hit, double weight, const Pixel &pixel, int sample,
+                 PixelScratch<double> &scratch) const {
+        const Rgb colour = world_.paints().colour(hit.object, hit.uv.x, hit.uv.y);
+        if (world_.paints().shines(hit.object)) return weight * colour;
+        scratch.shadows.add(hit, colour * (weight * pixel.share / std::numbers::pi), lights_of(pixel, sample),
+                            pixel.number);
+        return Rgb(0);
+    }
+
+    Rgb glass(std::size_t orb, const RayPacket &rays, const EntryPacket &entry, std::uint32_t inside,
+              const Pixel &pixel, int first, PixelScratch<double> &scratch) const {
         auto &path = scratch.path;
         const TreeEnd<double> &end = world_.end();
         const bool roulette = end.roulette > 0;
@@ -142,46 +201,93 @@ private:
         // The tail goes on as a whole or not at all, so it is asked later than a single branch.
         constexpr double tail = 1.0 / 8;
         const double cut = roulette ? end.roulette * tail : end.cut;
-        const std::uint64_t key =
-            roulette ? static_cast<std::uint64_t>(path.sampler->next() * 0x1p53) | (1ull << 60) : 0;
-        if (!trace_packet(world_.orbs()[orb], rays, entry, inside, cut, key, p)) {
-            for (; inside; inside &= inside - 1) {
-                const int l = std::countr_zero(inside);
-                path.lights = light_of(l);
+        while (inside) {
+            const std::uint32_t group = same_way(world_.orbs()[orb], entry, inside);
+            inside &= ~group;
+            const std::uint64_t key =
+                roulette ? static_cast<std::uint64_t>(path.sampler->next() * 0x1p53) | (1ull << 60) : 0;
+            if (trace_packet(world_.orbs()[orb], rays, entry, group, cut, key, p)) {
+                for (std::uint32_t bits = group; bits; bits &= bits - 1)
+                    path.dropped += p.dropped[std::countr_zero(bits)];
+                sum += world_.is_plain() ? leaving_for_rectangles(group, scratch)
+                                         : leaving(orb, group, pixel, first, scratch);
+                continue;
+            }
+            for (std::uint32_t bits = group; bits; bits &= bits - 1) {
+                const int l = std::countr_zero(bits);
+                path.lights = &lights_of(pixel, first + l);
                 sum += world_.glass(orb, {rays.origin.at(l), rays.direction.at(l)},
                                     {entry.distance[l], entry.impact[l], entry.depth[l], entry.foot.at(l)}, end, 1, 0,
                                     path);
             }
-            return sum;
         }
-        const int n = std::popcount(inside);
-        for (std::uint32_t bits = inside; bits; bits &= bits - 1) path.dropped += p.dropped[std::countr_zero(bits)];
+        return sum;
+    }
+
+    /// Faint light differs little from sample to sample: with roulette one of them stands for all, `factor` times.
+    std::uint32_t asked_of(const ExitPacket &out, std::uint32_t group, double &factor,
+                           PixelScratch<double> &scratch) const {
+        factor = 1;
+        const int n = std::popcount(group);
+        if (!(world_.end().roulette > 0 && out.greatest < world_.end().roulette && n > 1)) return group;
+        int skip = static_cast<int>(scratch.path.sampler->next() * n);
+        while (skip-- > 0) group &= group - 1;
+        factor = n;
+        return group & (~group + 1);
+    }
+
+    /// The light of all ways out of an orb, in a plain world: found one way ahead of what is seen there.
+    Rgb leaving_for_rectangles(std::uint32_t group, PixelScratch<double> &scratch) const {
+        const PacketScratch &p = scratch.packet;
+        Glance glances[2];
+        Rgb sum(0);
         for (std::size_t i = 0; i < p.count; ++i) {
             const ExitPacket &out = p.exits[i];
-            // Faint light differs little from sample to sample: with roulette one of them stands for all.
-            std::uint32_t asked = inside;
             double factor = 1;
-            if (roulette && out.greatest < end.roulette && n > 1) {
-                int skip = static_cast<int>(path.sampler->next() * n);
-                while (skip-- > 0) asked &= asked - 1;
-                asked &= ~(asked - 1);
-                factor = n;
-            }
-            if (world_.is_plain()) {
-                RectangleHits hits;
-                meet_rectangles(world_.surfaces().rectangles(), out.origin, out.direction, hits);
-                for (; asked; asked &= asked - 1) {
-                    const int l = std::countr_zero(asked);
-                    sum += factor * out.weight[l] * arriving(hits, l);
+            const std::uint32_t asked = asked_of(out, group, factor, scratch);
+            RectangleHits hits;
+            meet_rectangles(world_.surfaces().rectangles(), out.origin, out.direction, hits);
+            glance(world_.sights(), hits, out.weight, factor, asked, glances[i % 2], sum);
+            if (i > 0) read(glances[(i - 1) % 2], sum);
+        }
+        if (p.count > 0) read(glances[(p.count - 1) % 2], sum);
+        return sum;
+    }
+
+    /// The light of all ways out of an orb.
+    Rgb leaving(std::size_t orb, std::uint32_t group, const Pixel &pixel, int first,
+                PixelScratch<double> &scratch) const {
+        auto &path = scratch.path;
+        Rgb sum(0);
+        for (std::size_t i = 0; i < scratch.packet.count; ++i) {
+            const ExitPacket &out = scratch.packet.exits[i];
+            double factor = 1;
+            std::uint32_t asked = asked_of(out, group, factor, scratch);
+            for (std::uint32_t bits = asked; bits; bits &= bits - 1)
+                if (const int l = std::countr_zero(bits); !(out.weight[l] > 0)) asked &= ~(1u << l);
+            const RayPacket rays{out.origin, out.direction};
+            // Light that meets one more orb has a tree of its own.
+            for (std::size_t k = 0; k < world_.orbs().size(); ++k) {
+                if (k == orb) continue;
+                EntryPacket entry;
+                intersect(world_.orbs()[k], rays, entry);
+                for (std::uint32_t bits = entry.hits & asked; bits; bits &= bits - 1) {
+                    const int l = std::countr_zero(bits);
+                    const double weight = factor * out.weight[l];
+                    path.lights = &lights_of(pixel, first + l);
+                    sum += weight * world_.radiance({rays.origin.at(l), rays.direction.at(l)}, weight, orb, 1, path);
                 }
-                continue;
+                asked &= ~entry.hits;
             }
+            if (!asked) continue;
+            Lanes all_the_way;
+            for (double &limit : all_the_way.v) limit = std::numeric_limits<double>::infinity();
+            const std::uint32_t met = meet_surfaces(rays, asked, all_the_way, scratch);
             for (; asked; asked &= asked - 1) {
                 const int l = std::countr_zero(asked);
                 const double weight = factor * out.weight[l];
-                if (!(weight > 0)) continue;
-                path.lights = light_of(l);
-                sum += weight * world_.radiance({out.origin.at(l), out.direction.at(l)}, weight, orb, 1, path);
+                sum += met >> l & 1u ? arriving(scratch.hits[l], weight, pixel, first + l, scratch)
+                                     : weight * world_.environment();
             }
         }
         return sum;
@@ -191,8 +297,31 @@ private:
     Film film_;
     const Camera &camera_;
     const Replicate &replicate_;
+    Sampler sampler_;
     int samples_;
     bool box_;
 };
+
+/// A square of the picture's pixels: tiles are the same for any number of threads, and so is what shadow rays are cast
+/// together.
+inline constexpr int tile_px = 8;
+
+template <class Real>
+void render_tile(const PixelRenderer<Real> &pixel, const Camera &camera, int tile, PixelScratch<Real> &scratch,
+                 std::vector<Rgb> &pixels, std::vector<double> &missing) {
+    const int width = camera.image_width_px(), height = camera.image_height_px(),
+              across = (width + tile_px - 1) / tile_px;
+    const int left = tile % across * tile_px, top = tile / across * tile_px;
+    for (int row = top; row < std::min(top + tile_px, height); ++row)
+        for (int column = left; column < std::min(left + tile_px, width); ++column)
+            pixel(column, row, scratch, pixels,
+                  missing[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
+                          static_cast<std::size_t>(column)]);
+    pixel.finish(scratch, pixels);
+}
+
+inline int tiles_of(const Camera &camera) {
+    return ((camera.image_width_px() + tile_px - 1) / tile_px) * ((camera.image_height_px() + tile_px - 1) / tile_px);
+}
 
 } // namespace threefold::tracer

@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Where in a pixel the samples lie: the Sobol (0,2)-sequence, Owen-scrambled by hashing.
-// Burley, Practical Hash-based Owen Scrambling, JCGT 9(4), 2020.
+// Where in a pixel the samples lie: the Sobol (0,2)-sequence, Owen-scrambled by hashing, and two plainer ways to compare
+// it with. Burley, Practical Hash-based Owen Scrambling, JCGT 9(4), 2020.
 #pragma once
 
 #include <cstdint>
 
 #include "scenes/scene.h"
 
-namespace threefold::tracer {
+namespace threefold {
+
+/// `stratified`: one position at random in each cell of a grid, as square as the number of samples allows. `random`:
+/// independent positions.
+enum class Sampler { sobol, stratified, random };
+
+namespace tracer {
 
 /// A well-mixing hash of 64 bits (SplitMix64, Steele et al. 2014).
 constexpr std::uint64_t mix(std::uint64_t x) {
@@ -55,8 +61,24 @@ public:
         : key_(mix(seed ^ mix((static_cast<std::uint64_t>(static_cast<std::uint32_t>(row)) << 32) |
                               static_cast<std::uint32_t>(column)))) {}
 
+    /// Of so many samples; without this, by Sobol's sequence.
+    void use(Sampler kind, int samples) {
+        kind_ = kind;
+        columns_ = 1;
+        for (int n = 1; n * n <= samples; ++n)
+            if (samples % n == 0) columns_ = static_cast<std::uint32_t>(n);
+        rows_ = static_cast<std::uint32_t>(samples) / columns_;
+    }
+    bool is_sobol() const { return kind_ == Sampler::sobol; }
+
     /// The k-th position in the unit square.
     Vec2 position(std::uint32_t k) const {
+        if (kind_ != Sampler::sobol) {
+            const std::uint64_t both = mix(key_ ^ mix(0x9051ull + k));
+            const Vec2 at(fraction(static_cast<std::uint32_t>(both)), fraction(static_cast<std::uint32_t>(both >> 32)));
+            if (kind_ == Sampler::random) return at;
+            return {(at.x + k % columns_) / columns_, (at.y + k / columns_ % rows_) / rows_};
+        }
         const std::uint32_t shuffled = owen_scramble(k, key(0));
         return {fraction(owen_scramble(reverse_bits(shuffled), key(1))),
                 fraction(owen_scramble(second_dimension(shuffled), key(2)))};
@@ -75,6 +97,9 @@ private:
 
     std::uint64_t key_;
     std::uint64_t drawn_ = 0;
+    Sampler kind_ = Sampler::sobol;
+    std::uint32_t columns_ = 1, rows_ = 1;
 };
 
-} // namespace threefold::tracer
+} // namespace tracer
+} // namespace threefold

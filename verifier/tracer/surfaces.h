@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Everything that is not glass: rectangles and meshes in an Embree hierarchy, and the light that leaves them.
+// Everything that is not glass: rectangles and meshes, and where a ray meets them.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
-#include "scenes/camera.h"
-#include "verifier/tracer/packet.h"
+#include "verifier/tracer/embree_world.h"
+#include "verifier/tracer/rectangles.h"
 
 namespace threefold::tracer {
 
@@ -18,36 +18,40 @@ struct SurfaceHit {
     std::uint32_t triangle = 0;
     Vec2 uv{0};
     Vec3 normal{0}; ///< unit, towards the side the ray came from
+
+    Left left() const { return {static_cast<std::uint32_t>(object), triangle}; }
 };
 
 /// Embree finds candidates in single precision; where `exact`, distance, uv and normal are then computed in double from
-/// the scene's own numbers. A ray that starts on a surface names it, so that no epsilon is needed.
+/// the scene's own numbers. A ray that starts on a surface names it, so that no epsilon is needed. A few rectangles are
+/// met one by one instead, in double precision; without a mesh there is no Embree at all.
 class Surfaces {
 public:
     Surfaces(const Scene &scene, bool exact);
-    ~Surfaces();
-    Surfaces(const Surfaces &) = delete;
-    Surfaces &operator=(const Surfaces &) = delete;
 
-    std::optional<SurfaceHit> intersect(const Ray &ray, const SurfaceHit *left = nullptr) const;
+    std::optional<SurfaceHit> intersect(const Ray &ray) const;
 
     /// Is anything in the way of a ray that leaves a surface at `left`?
     bool blocks(const Ray &ray, const SurfaceHit &left) const;
 
-    /// The rectangles that are met one by one, in double precision; with `only_rectangles` there is nothing else.
-    const std::vector<Rectangle> &rectangles() const;
-    bool only_rectangles() const;
+    /// The lanes of `active` that meet a surface no further than `limit`, and where.
+    std::uint32_t intersect(const RayPacket &rays, std::uint32_t active, const Lanes &limit,
+                            SurfaceHit (&hits)[lanes]) const;
 
-    /// Radiance of an emitter, or reflectance of a diffuse surface, at a hit.
-    Rgb emitted(const SurfaceHit &hit) const;
-    std::optional<Rgb> reflectance(const SurfaceHit &hit) const;
+    /// The lanes of `active` in whose way something stands, of rays that leave the surfaces `left`.
+    std::uint32_t blocks(const RayPacket &rays, std::uint32_t active, const Left (&left)[lanes]) const;
+
+    /// The rectangles that are met one by one, in double precision; with `only_rectangles` there is nothing else.
+    const std::vector<Rectangle> &rectangles() const { return rectangles_; }
+    bool only_rectangles() const { return !world_; }
 
 private:
-    struct State;
-    std::unique_ptr<State> state_;
-};
+    SurfaceHit refine(Vec3 origin, Vec3 direction, const Candidate &found) const;
 
-/// Of the library this was built with: "3.13.5".
-std::string embree_version();
+    const Scene *scene_;
+    std::vector<Rectangle> rectangles_; ///< those that are not in Embree's world
+    std::unique_ptr<EmbreeWorld> world_;
+    bool exact_;
+};
 
 } // namespace threefold::tracer

@@ -6,7 +6,7 @@
 #include <ctime>
 #include <mutex>
 
-#include <tbb/blocked_range2d.h>
+#include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -23,8 +23,6 @@ namespace {
 
 using namespace tracer;
 
-constexpr int tile_px = 16;
-
 double process_cpu_seconds() {
     timespec now{};
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
@@ -33,13 +31,15 @@ double process_cpu_seconds() {
 
 template <class Real>
 void render(const RenderJob &job, const TreeEnd<Real> &end, const std::function<void(double)> &on_progress,
-            TracerOutcome &outcome) {
+            Sampler sampler, double cpu_start, TracerOutcome &outcome) {
     const Camera &camera = job.scene.camera;
     const int width = camera.image_width_px(), height = camera.image_height_px();
     const int samples = job.sampling == Sampling::box ? job.samples_per_pixel : 1;
     const World<Real> world(job.scene, job.slip, end, samples);
+    outcome.set_up_cpu_seconds = process_cpu_seconds() - cpu_start;
     const double pixels = static_cast<double>(width) * height * static_cast<double>(job.replicates.size());
 
+    const double of_all = static_cast<double>(tiles_of(camera)) * static_cast<double>(job.replicates.size());
     std::atomic<double> done = 0;
     std::mutex progress_mutex;
     tbb::enumerable_thread_specific<PixelScratch<Real>> scratches;
@@ -47,20 +47,17 @@ void render(const RenderJob &job, const TreeEnd<Real> &end, const std::function<
     for (const Replicate &replicate : job.replicates) {
         Image image(width, height);
         std::vector<double> missing(image.pixels.size());
-        const PixelRenderer<Real> pixel(world, job, replicate);
-        tbb::parallel_for(tbb::blocked_range2d<int>(0, height, tile_px, 0, width, tile_px), [&](const auto &tile) {
-            if (interrupt_requested) throw Error(Exit::interrupted, "interrupted");
+        const PixelRenderer<Real> pixel(world, job, replicate, sampler);
+        tbb::parallel_for(tbb::blocked_range<int>(0, tiles_of(camera)), [&](const auto &tiles) {
             PixelScratch<Real> &scratch = scratches.local();
-            for (int row = tile.rows().begin(); row != tile.rows().end(); ++row)
-                for (int column = tile.cols().begin(); column != tile.cols().end(); ++column)
-                    image.at(column, row) =
-                        pixel(column, row, scratch,
-                              missing[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
-                                      static_cast<std::size_t>(column)]);
-            const double now = done += static_cast<double>(tile.rows().size() * tile.cols().size());
+            for (int tile = tiles.begin(); tile != tiles.end(); ++tile) {
+                if (interrupt_requested) throw Error(Exit::interrupted, "interrupted");
+                render_tile(pixel, camera, tile, scratch, image.pixels, missing);
+            }
             if (on_progress) {
+                const double now = done += static_cast<double>(tiles.size());
                 const std::lock_guard lock(progress_mutex);
-                on_progress(now / pixels);
+                on_progress(now / of_all);
             }
         });
         for (const double m : missing) {
@@ -76,13 +73,13 @@ void render(const RenderJob &job, const TreeEnd<Real> &end, const std::function<
 
 TracerOutcome trace(const RenderJob &job, const TracerSettings &settings,
                     const std::function<void(double)> &on_progress) {
+    const auto start = std::chrono::steady_clock::now();
+    const double cpu_start = process_cpu_seconds();
     const Needs n = needs(job.scene);
     if (n.caustics) throw Error(Exit::bad_data, "the tracer does not follow caustics onto diffuse surfaces");
     if (n.environment_on_diffuse)
         throw Error(Exit::bad_data,
                     "the tracer lights diffuse surfaces by parallel lights only: give the environment a dome of them");
-    const auto start = std::chrono::steady_clock::now();
-    const double cpu_start = process_cpu_seconds();
     TracerOutcome outcome;
     const bool roulette = settings.transport == Transport::roulette;
     tbb::task_arena arena(job.threads > 0 ? job.threads : tbb::task_arena::automatic);
@@ -91,7 +88,7 @@ TracerOutcome trace(const RenderJob &job, const TracerSettings &settings,
             render<Real>(job,
                          {static_cast<Real>(roulette ? 0 : job.cut_weight),
                           static_cast<Real>(roulette ? settings.roulette_weight : 0)},
-                         on_progress, outcome);
+                         on_progress, settings.sampler, cpu_start, outcome);
         };
         switch (settings.precision) {
         case Precision::single_precision:

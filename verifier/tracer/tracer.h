@@ -7,6 +7,7 @@
 
 #include "exporter/image/image.h"
 #include "exporter/job.h"
+#include "verifier/tracer/sampler.h"
 
 namespace threefold {
 
@@ -21,6 +22,7 @@ struct TracerSettings {
     Precision precision = Precision::double_precision;
     Transport transport = Transport::tree;
     double roulette_weight = 1e-2;
+    Sampler sampler = Sampler::sobol;
 };
 
 struct TracerOutcome {
@@ -28,6 +30,7 @@ struct TracerOutcome {
     double missing_weight_mean = 0;     ///< weight of the dropped branches, mean over all pixels and replicates
     double missing_weight_greatest = 0; ///< and of the worst pixel
     double seconds = 0, cpu_seconds = 0;
+    double set_up_cpu_seconds = 0; ///< part of cpu_seconds: before the first ray
 };
 
 /// Throws Error(bad_data) for what this tracer cannot do (caustics, an environment that lights a diffuse surface).

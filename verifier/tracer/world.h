@@ -8,10 +8,11 @@
 
 #include "exporter/job.h"
 #include "scenes/validate.h"
-#include "verifier/tracer/emitters.h"
 #include "verifier/tracer/lights.h"
 #include "verifier/tracer/orb.h"
+#include "verifier/tracer/paints.h"
 #include "verifier/tracer/sampler.h"
+#include "verifier/tracer/sights.h"
 #include "verifier/tracer/surfaces.h"
 
 namespace threefold::tracer {
@@ -50,7 +51,18 @@ class World {
 public:
     World(const Scene &scene, const Slip &slip, const TreeEnd<Real> &end, int samples)
         : scene_(scene), end_(end), orbs_(orbs_of<Real>(scene, slip)), surfaces_(scene, std::is_same_v<Real, double>),
-          emitters_(scene), lights_(scene, samples) {}
+          paints_(scene), lights_(scene, samples) {
+        if (!paints_.all_shine() || !surfaces_.only_rectangles() || orbs_.size() > 1) return;
+        sights_.push_back({Sight::Kind::constant, environment()});
+        for (const Rectangle &rectangle : surfaces_.rectangles()) {
+            const auto sight = paints_.sight(rectangle.object);
+            if (!sight) {
+                sights_.clear();
+                return;
+            }
+            sights_.push_back(*sight);
+        }
+    }
 
     /// What one thread and one sample carry along.
     struct Path {
@@ -65,9 +77,12 @@ public:
     const TreeEnd<Real> &end() const { return end_; }
     const std::vector<Orb<Real>> &orbs() const { return orbs_; }
     const Surfaces &surfaces() const { return surfaces_; }
-    const Emitters &emitters() const { return emitters_; }
-    /// Do all rays that leave glass end on one of a few rectangles that shine, or in the environment?
-    bool is_plain() const { return emitters_.all_shine() && surfaces_.only_rectangles() && orbs_.size() <= 1; }
+    const Paints &paints() const { return paints_; }
+    /// Do all rays that leave glass end on one of a few rectangles that shine, or in the environment? Then sights() is
+    /// what they see.
+    bool is_plain() const { return !sights_.empty(); }
+    const std::vector<Sight> &sights() const { return sights_; }
+    Rgb environment() const { return scene_.environment ? scene_.environment->radiance : Rgb(0); }
 
     /// `left` is the orb that the ray has just left, if any: it cannot meet it again.
     Rgb radiance(const RayOf<Real> &ray, double weight, std::size_t left, int depth, Path &path) const {
@@ -77,7 +92,7 @@ public:
         const auto hit = surfaces_.intersect(exact);
         if (hit && (orb == none || hit->distance <= static_cast<double>(entry.distance)))
             return leaving(*hit, *path.lights);
-        if (orb == none) return scene_.environment ? scene_.environment->radiance : Rgb(0);
+        if (orb == none) return environment();
         if (depth >= greatest_depth) {
             path.dropped += weight;
             return Rgb(0);
@@ -85,17 +100,6 @@ public:
         TreeEnd<Real> end = end_;
         end.cut = static_cast<Real>(std::min(1.0, static_cast<double>(end.cut) / weight));
         return glass(orb, ray, entry, end, weight, depth, path);
-    }
-
-    /// Does a ray that meets an orb at this distance meet nothing else before?
-    bool meets_first(std::size_t orb, const RayOf<Real> &ray, Real distance) const {
-        Entry<Real> entry{};
-        for (std::size_t i = 0; i < orbs_.size(); ++i)
-            if (i != orb && intersect(orbs_[i], ray, entry) &&
-                (entry.distance < distance || (entry.distance == distance && i < orb)))
-                return false;
-        const auto hit = surfaces_.intersect(Ray{Vec3(ray.origin), Vec3(ray.direction)});
-        return !hit || hit->distance > static_cast<double>(distance);
     }
 
     /// What comes out of an orb.
@@ -129,21 +133,20 @@ private:
     }
 
     Rgb leaving(const SurfaceHit &hit, const std::vector<Light> &lights) const {
-        const auto reflectance = emitters_.all_shine() ? std::nullopt : surfaces_.reflectance(hit);
-        if (!reflectance) return emitters_.radiance(hit.object, hit.uv.x, hit.uv.y);
+        const Rgb colour = paints_.colour(hit.object, hit.uv.x, hit.uv.y);
+        if (paints_.shines(hit.object) || colour == Rgb(0)) return colour;
         Rgb irradiance(0);
         for (const Light &light : lights) {
             const double cosine = glm::dot(light.towards, hit.normal);
             if (cosine > 0) irradiance += light.irradiance * (cosine * passed(hit, light.towards));
         }
-        return *reflectance * irradiance / std::numbers::pi;
+        return colour * irradiance / std::numbers::pi;
     }
 
     /// The share of a light that reaches a surface: opaque surfaces block, glass follows the scene's rule.
     double passed(const SurfaceHit &hit, Vec3 towards) const {
         const Ray shadow{hit.position, towards};
-        if (surfaces_.blocks(shadow, hit)) return 0;
-        if (scene_.glass_shadow.rule == GlassShadow::Rule::none) return 1;
+        if (scene_.glass_shadow.rule == GlassShadow::Rule::none) return surfaces_.blocks(shadow, hit) ? 0 : 1;
         const double through =
             scene_.glass_shadow.rule == GlassShadow::Rule::constant ? scene_.glass_shadow.transmittance : 0;
         double share = 1;
@@ -151,15 +154,16 @@ private:
         for (const Orb<Real> &orb : orbs_)
             if (intersect(orb, RayOf<Real>{Vector<Real>(shadow.origin_mm), Vector<Real>(towards)}, entry))
                 share *= through;
-        return share;
+        return share > 0 && surfaces_.blocks(shadow, hit) ? 0 : share;
     }
 
     const Scene &scene_;
     TreeEnd<Real> end_;
     std::vector<Orb<Real>> orbs_;
     Surfaces surfaces_;
-    Emitters emitters_;
+    Paints paints_;
     Lights lights_;
+    std::vector<Sight> sights_;
 };
 
 } // namespace threefold::tracer

@@ -22,7 +22,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Changes whenever the tracer's pictures do: an old picture must not be taken for a new one.
-constexpr int tracer_revision = 2;
+constexpr int tracer_revision = 3;
 
 Witness tracer_witness() {
     Witness w;
@@ -53,6 +53,7 @@ std::string tracer_key(const RenderJob &job, const TracerSettings &settings) {
         {"slip", {job.slip.inner_normal_flipped, job.slip.most_interfaces.value_or(0), job.slip.inner_tint_forgotten}},
         {"precision", static_cast<int>(settings.precision)},
         {"transport", static_cast<int>(settings.transport)},
+        {"sampler", static_cast<int>(settings.sampler)},
         {"roulette_weight", settings.roulette_weight}};
     return content_hash(key.dump());
 }
