@@ -36,10 +36,10 @@ std::string scene_words(const SceneRequest &scene) {
 }
 
 /// What render would be told for the same picture; empty where no renderer of ours makes it.
-std::string render_command(const ExportRequest &request, ExportFormat format) {
+std::string render_command(const Shop &shop, const ExportRequest &request, ExportFormat format) {
     const auto with = [&](std::string_view renderer) {
-        return fmt::format("threefold render {} --with {} --spp {} --seed {}", scene_words(request.scene), renderer,
-                           request.samples_per_pixel, request.seed);
+        return fmt::format("{} render {} --with {} --spp {} --seed {}", shell_quoted(shop.program),
+                           scene_words(request.scene), renderer, request.samples_per_pixel, request.seed);
     };
     switch (format) {
     case ExportFormat::blender:
@@ -70,8 +70,9 @@ Provenance provenance_of(const Shop &shop, const ExportRequest &request, ExportF
         options += fmt::format(" --spp {} --seed {}", request.samples_per_pixel, request.seed);
     if (!request.onto.empty()) options += " --onto " + shell_quoted(request.onto);
     provenance.export_command =
-        fmt::format("threefold export {} --to {}{} -o FOLDER", scene_words(request.scene), request.to, options);
-    provenance.render_command = render_command(request, format);
+        fmt::format("{} export {} --to {}{} -o FOLDER", shell_quoted(shop.program), scene_words(request.scene),
+                    request.to, options);
+    provenance.render_command = render_command(shop, request, format);
     return provenance;
 }
 

@@ -65,11 +65,11 @@ Exit command_list(const Shop &shop, bool json) {
         write_result("-", all.dump(2));
         return Exit::holds;
     }
-    fmt::print("Scenes (threefold show SCENE, threefold render SCENE):\n");
+    fmt::print("Scenes ({0} show SCENE, {0} render SCENE):\n", shop.program);
     for (const SceneRecipe &s : shop.scenes) fmt::print("  {:<16} {}\n", s.name, s.summary);
-    fmt::print("\nClaims (threefold check [CLAIM...]):\n");
+    fmt::print("\nClaims ({} check [CLAIM...]):\n", shop.program);
     for (const Claim &c : shop.claims) fmt::print("  {:<16} {}\n", c.name, c.statement);
-    fmt::print("\nFaults (threefold check --inject RENDERER:FAULT):\n");
+    fmt::print("\nFaults ({} check --inject RENDERER:FAULT):\n", shop.program);
     for (const FaultEntry &f : faults()) fmt::print("  {:<20} {}\n", f.name, f.description);
     return Exit::holds;
 }

@@ -21,6 +21,7 @@ namespace threefold {
 struct Shop {
     const std::vector<SceneRecipe> &scenes;
     const std::vector<Claim> &claims;
+    std::string program;      ///< "threefold", or the name of a user's own program
     std::string command_line; ///< as typed, quoted for a shell
     int verbosity = 0;        ///< -1 quiet, 0, 1 verbose
     int threads = 0;

@@ -38,8 +38,14 @@ void open_missing_streams() {
             _exit(static_cast<int>(Exit::input_output));
 }
 
+/// The file name that we were started by: a user's own program is not called threefold.
+std::string program_name(int argc, char **argv) {
+    const std::string name = argc > 0 ? std::filesystem::path(argv[0]).filename().string() : "";
+    return name.empty() ? "threefold" : name;
+}
+
 std::string command_line(int argc, char **argv) {
-    std::string all = "threefold";
+    std::string all = shell_quoted(program_name(argc, argv));
     for (int i = 1; i < argc; ++i) all += " " + shell_quoted(argv[i]);
     return all;
 }
@@ -120,7 +126,7 @@ int run(int argc, char **argv, const std::vector<SceneRecipe> &scenes, const std
         "Does a conclusion about a glass orb hold in physics, or only in one renderer?\n"
         "A scene is rendered by POV-Ray, Blender Cycles and Threefold's own tracer, measured by the same code, held\n"
         "against exact optics, and judged: holds, fails, or undecided.\n",
-        "threefold"};
+        program_name(argc, argv)};
     app.footer(
         "Start here:\n"
         "  threefold render hollow                  a first picture (hollow.exr, hollow.png)\n"
@@ -139,7 +145,7 @@ int run(int argc, char **argv, const std::vector<SceneRecipe> &scenes, const std
         return all.substr(0, all.size() - 1);
     });
 
-    Shop shop{scenes, claims, command_line(argc, argv), 0, 0};
+    Shop shop{scenes, claims, program_name(argc, argv), command_line(argc, argv), 0, 0};
     Exit exit = Exit::holds;
     bool quiet = false, verbose = false;
     const auto add_common = [&](CLI::App &command) {
