@@ -81,6 +81,7 @@ TracerOutcome trace(const RenderJob &job, const TracerSettings &settings,
     if (n.environment_on_diffuse)
         throw Error(Exit::bad_data,
                     "the tracer lights diffuse surfaces by parallel lights only: give the environment a dome of them");
+    if (job.most_bounces) throw Error(Exit::bad_data, "the tracer ends a tree by its weight, not by a number of surfaces");
     const auto start = std::chrono::steady_clock::now();
     const double cpu_start = process_cpu_seconds();
     TracerOutcome outcome;
