@@ -29,6 +29,10 @@ struct Adapter {
     std::string (*explain_failure)(std::string_view log);
     /// Where glass splits rays, or many lights fall on a surface: samples for one of a renderer that follows every branch, for about the same noise.
     int sample_factor = 1;
+    /// The line after which the program does nothing but render: reading and building are over. May be null.
+    bool (*rendering_begins)(std::string_view line) = nullptr;
+    /// CPU seconds of rendering alone, if the program's log tells them. May be null.
+    std::optional<double> (*own_cpu_seconds)(std::string_view log) = nullptr;
 };
 
 std::span<const Adapter> adapters();

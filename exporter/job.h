@@ -37,6 +37,9 @@ struct RenderJob {
     std::vector<Replicate> replicates{Replicate{}};
     double surface_tolerance_mm = 1e-3; ///< greatest distance of a tessellated glass surface from the true one
     double cut_weight = 1e-6;           ///< a branch of the ray tree may be dropped below this weight, never above
+    /// For studies: a path ends after so many surfaces, where a renderer counts them. Empty: as deep as it can. What it
+    /// takes away is in no `Accuracy`.
+    std::optional<int> most_bounces{};
     int threads = 0;                    ///< 0: all cores
     Slip slip{};
 };

@@ -143,6 +143,7 @@ RunOutcome run_exported(const Adapter &adapter, const InstalledRenderer &install
     request.folder = options.folder;
     request.log = run.log;
     request.time_limit = options.time_limit;
+    if (adapter.rendering_begins) request.marks = adapter.rendering_begins;
     double last_share = 0;
     if (options.on_progress)
         request.on_line = [&](std::string_view line) {
@@ -163,6 +164,10 @@ RunOutcome run_exported(const Adapter &adapter, const InstalledRenderer &install
     }
     outcome.seconds = child.seconds;
     outcome.cpu_seconds = child.cpu_seconds;
+    std::optional<double> own;
+    if (adapter.own_cpu_seconds) own = adapter.own_cpu_seconds(read_file(run.log));
+    if (!own && child.cpu_seconds_at_mark) own = child.cpu_seconds - *child.cpu_seconds_at_mark;
+    outcome.own_cpu_seconds = own.value_or(child.cpu_seconds);
     outcome.peak_memory_mb = child.peak_memory_mb;
     return outcome;
 }

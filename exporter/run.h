@@ -31,6 +31,7 @@ struct RunOutcome {
     std::vector<Image> images; ///< one a replicate; averaged and unscaled: radiance
     double seconds = 0;        ///< of the whole process
     double cpu_seconds = 0;
+    double own_cpu_seconds = 0; ///< of rendering alone, without start-up; of the whole process where that is not told
     double peak_memory_mb = 0;
 };
 

@@ -135,6 +135,7 @@ Exit command_check(const Shop &shop, const CheckCommand &command) {
     request.seed = command.seed;
     request.threads = shop.threads;
     request.tracer = tracer_settings(command.precision, "tree");
+    request.tolerance = command.tolerance;
     request.time_limit = to_time_limit(command.time_limit_s);
     request.folder = command.folder;
     request.injected = parse_injections(command.injections);

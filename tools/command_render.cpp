@@ -12,6 +12,7 @@
 #include "exporter/temporary_folder.h"
 #include "tools/commands.h"
 #include "tools/progress.h"
+#include "verifier/tolerance/tolerance.h"
 #include "verifier/witness/witness.h"
 
 namespace threefold {
@@ -60,12 +61,30 @@ Exit command_render(const Shop &shop, const RenderRequest &request) {
     job.samples_per_pixel = request.samples_per_pixel;
     job.replicates = {{request.seed, {}}};
     job.cut_weight = cut_weight;
+    job.surface_tolerance_mm = request.surface_mm.value_or(job.surface_tolerance_mm);
+    job.most_bounces = request.bounces;
     job.threads = shop.threads;
 
     const TemporaryFolder temporary;
     Progress progress({witness.name}, shop.verbosity < 0);
+    std::optional<WithinTolerance> within;
     const auto attempt = [&] {
         try {
+            if (request.tolerance) {
+                ToleranceRequest asked;
+                asked.tolerance = *request.tolerance;
+                asked.seed = request.seed;
+                asked.threads = shop.threads;
+                asked.folder = request.keep.value_or(temporary.path());
+                asked.label = label;
+                asked.time_limit = time_limit;
+                asked.on_progress = [&](double share, const std::string &now) {
+                    progress.update(witness.name, share, now);
+                };
+                if (!witness.present() || !witness.problem.empty()) return render(witness, job, {}); // says why not
+                within = render_within(witness, scene, asked);
+                return within->rendered;
+            }
             return render(witness, job,
                           {request.keep.value_or(temporary.path()), label, tracer, time_limit,
                            [&](double share) { progress.update(witness.name, share, label); }});
@@ -87,6 +106,10 @@ Exit command_render(const Shop &shop, const RenderRequest &request) {
         metadata["threefold:missing_weight_mean"] = fmt::format("{:.3e}", *r.record.missing_weight_mean);
         metadata["threefold:missing_weight_greatest"] = fmt::format("{:.3e}", *r.record.missing_weight_greatest);
     }
+    if (within) {
+        metadata["threefold:settings"] = within->description;
+        metadata["threefold:relative_rms_error"] = fmt::format("{:.3e}", within->error);
+    }
     write_image(output, r.images.front(), metadata);
     fs::path preview = output;
     preview.replace_extension(".png");
@@ -98,11 +121,19 @@ Exit command_render(const Shop &shop, const RenderRequest &request) {
             line += fmt::format(
                 "; dropped with the ends of ray trees: {:.1e} of the light on average, {:.1e} in the worst pixel",
                 *r.record.missing_weight_mean, *r.record.missing_weight_greatest);
+        if (within)
+            line = fmt::format("{}: {}; relative RMS error {:.2g} ({} {:g}): noise {:.2g}, {} {:.2g}{}; {:.3g} CPU s with "
+                               "the pilot",
+                               witness.title, within->description, within->error,
+                               within->met ? "within" : "NOT within", *request.tolerance, within->noise,
+                               within->systematic_is_bound ? "dropped light at most" : "offset", within->systematic,
+                               within->reference.empty() ? "" : fmt::format(" (against {})", within->reference),
+                               within->cpu_seconds);
         say(line);
     }
     fmt::print("{}\n", output.string());
     if (preview != output) fmt::print("{}\n", preview.string());
-    return Exit::holds;
+    return within && !within->met ? Exit::undecided : Exit::holds;
 }
 
 } // namespace threefold

@@ -72,6 +72,9 @@ struct RenderRequest {
     std::uint64_t seed = 1;
     bool pixel_centres = false;
     std::optional<double> cut_weight; ///< empty: 1e-6 by our tracer, which merges branches, 1e-5 by the others
+    std::optional<double> surface_mm; ///< of meshed glass; empty: 1e-3
+    std::optional<int> bounces;
+    std::optional<double> tolerance; ///< chooses all of the above
     std::string precision = "double", transport = "tree", sampler = "sobol";
     double time_limit_s = 3600;
 };
@@ -91,6 +94,7 @@ struct CheckCommand {
     std::uint64_t seed = 1;
     double time_limit_s = 600;
     std::string precision = "double";
+    std::optional<double> tolerance; ///< of pictures; empty: each claim's own samples
 };
 Exit command_check(const Shop &shop, const CheckCommand &request);
 
@@ -107,6 +111,20 @@ struct PowerCommand {
     std::optional<std::string> json, markdown;
 };
 Exit command_power(const Shop &shop, const PowerCommand &command);
+
+struct TradeCommand {
+    SceneRequest scene;
+    std::vector<std::string> with; ///< empty: all, and a missing one is no error
+    std::vector<double> tolerances; ///< empty: 1e-2
+    bool quick = false;
+    int runs = 5;
+    std::optional<double> budget_s; ///< empty: by `quick`
+    std::uint64_t seed = 1;
+    double time_limit_s = 600;
+    std::filesystem::path folder = "threefold-report-trade";
+    std::optional<std::string> json, markdown;
+};
+Exit command_trade(const Shop &shop, const TradeCommand &command);
 
 struct CompareRequest {
     std::vector<std::filesystem::path> pictures;

@@ -118,6 +118,49 @@ void add_power_options(CLI::App &command, PowerCommand &power) {
         ->check(CLI::PositiveNumber);
 }
 
+void add_trade_options(CLI::App &command, TradeCommand &trade) {
+    add_scene_options(command, trade.scene);
+    command.add_flag("--quick", trade.quick, "Fewer settings, 64 px and less to pay: some minutes");
+    command
+        .add_option("--with", trade.with,
+                    "Renderers, comma-separated: tracer, povray, cycles (default: all that are installed)")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    command
+        .add_option("--tolerance", trade.tolerances,
+                    "Relative RMS error to be met: over pixels and channels, over the mean radiance (1e-2); "
+                    "comma-separated")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->check(CLI::Range(1e-9, 0.999));
+    command.add_option("--runs", trade.runs, "Runs of each setting, each with its own seed")
+        ->capture_default_str()
+        ->check(CLI::Range(2, 1000));
+    command
+        .add_option("--budget", trade.budget_s,
+                    "CPU seconds to see one renderer meet one tolerance (300; --quick: 60); beyond, its law alone speaks")
+        ->check(CLI::PositiveNumber);
+    command.add_option("--seed", trade.seed, "Seed")->capture_default_str();
+    command
+        .add_option("-o,--output", trade.folder,
+                    "Folder: report.html, trade.json, trade.csv, trade.md, pictures; a killed run goes on there")
+        ->capture_default_str();
+    command.add_option("--json", trade.json, "Also write the result as JSON here (-: stdout)");
+    command.add_option("--markdown", trade.markdown, "Also write the tables as a page of Markdown here (-: stdout)");
+    command.add_option("--timeout", trade.time_limit_s, "Seconds until a renderer is given up")
+        ->capture_default_str()
+        ->check(CLI::PositiveNumber);
+    command.footer(
+        "For example:\n"
+        "  threefold trade hollow --quick                              some minutes, all renderers\n"
+        "  threefold trade hollow --set orb.wall_mm=4 --tolerance 1e-2,3e-3 -o trade\n"
+        "  threefold trade furnace --with tracer,povray                against a closed form\n\n"
+        "Each knob is swept, each setting run with several seeds, all renderers in turn; the error is split into noise and\n"
+        "bias against a closed form where there is one, else against a converged picture of our tracer. The cheapest\n"
+        "setting that should meet the tolerance is rendered with fresh seeds, and the next one where it does not.\n"
+        "Exit code 0: a setting of every renderer was seen to meet every tolerance; 2: not.");
+}
+
 } // namespace
 
 int run(int argc, char **argv, const std::vector<SceneRecipe> &scenes, const std::vector<Claim> &claims) {
@@ -133,6 +176,7 @@ int run(int argc, char **argv, const std::vector<SceneRecipe> &scenes, const std
         "  threefold check --quick                  all claims in all renderers, with a report\n"
         "  threefold check solid-vs-hollow --set glass.index=1.1 -o water\n"
         "  threefold power --quick                  which known faults the check catches, and how small\n"
+        "  threefold trade hollow --quick           what accuracy costs in each renderer\n"
         "  threefold optics --impact-mm 60          the closed forms for one ray\n\n"
         "Exit codes: 0 holds, 1 fails, 2 undecided, 64 usage, 65 bad input, 69 renderer missing, 70 a defect of ours,\n"
         "74 input or output failed, 124 a renderer ran out of time, 130 interrupted.");
@@ -179,20 +223,43 @@ int run(int argc, char **argv, const std::vector<SceneRecipe> &scenes, const std
     render.add_option("--with", render_request.with, "tracer, povray or cycles")->capture_default_str();
     render.add_option("-o,--output", render_request.output,
                       "Picture: .exr (float), .tif (64-bit) or .png; a .png preview is put beside it");
-    render.add_option("--spp", render_request.samples_per_pixel, "Samples per pixel")->capture_default_str();
+    CLI::Option *spp =
+        render.add_option("--spp", render_request.samples_per_pixel, "Samples per pixel")->capture_default_str();
+    CLI::Option *tolerance =
+        render
+            .add_option("--tolerance", render_request.tolerance,
+                        "Choose all settings so that the picture's RMS error, over pixels and channels and relative to "
+                        "the mean radiance, is at most this: by a pilot on this very scene; noise and offset from our "
+                        "tracer's picture together (our tracer: noise, and what it dropped). Exit code 2 if it is not met")
+            ->check(CLI::Range(1e-9, 0.999))
+            ->excludes(spp);
     render.add_option("--seed", render_request.seed, "Seed")->capture_default_str();
-    render.add_flag("--pixel-centres", render_request.pixel_centres, "One ray through each pixel's centre, no filter");
+    render.add_flag("--pixel-centres", render_request.pixel_centres, "One ray through each pixel's centre, no filter")
+        ->excludes(tolerance);
+    render
+        .add_option("--surface-mm", render_request.surface_mm,
+                    "Cycles: greatest distance of a meshed glass sphere from the true one (1e-3)")
+        ->check(CLI::PositiveNumber)
+        ->excludes(tolerance);
+    render.add_option("--bounces", render_request.bounces, "Cycles, POV-Ray: surfaces on a path (as many as it can)")
+        ->check(CLI::Range(1, 256))
+        ->excludes(tolerance);
     render
         .add_option("--cut", render_request.cut_weight,
                     "Weight at which a ray tree may be cut (1e-6; 1e-5 where branches are not merged: POV-Ray)")
-        ->check(CLI::Range(1e-12, 0.5));
-    render.add_option("--precision", render_request.precision, "Tracer: float or double")->capture_default_str();
+        ->check(CLI::Range(1e-12, 0.5))
+        ->excludes(tolerance);
+    render.add_option("--precision", render_request.precision, "Tracer: float or double")
+        ->capture_default_str()
+        ->excludes(tolerance);
     render.add_option("--transport", render_request.transport, "Tracer: tree (all branches) or roulette")
-        ->capture_default_str();
+        ->capture_default_str()
+        ->excludes(tolerance);
     render
         .add_option("--sampler", render_request.sampler,
                     "Tracer: where in a pixel samples lie: sobol (scrambled, the least noise), stratified or random")
-        ->capture_default_str();
+        ->capture_default_str()
+        ->excludes(tolerance);
     render.add_option("--keep", render_request.keep, "Keep generated inputs, log and raw pictures in this folder");
     render.add_option("--timeout", render_request.time_limit_s, "Seconds until a renderer is given up")
         ->capture_default_str()
@@ -231,6 +298,12 @@ int run(int argc, char **argv, const std::vector<SceneRecipe> &scenes, const std
     check.add_option("--timeout", check_command.time_limit_s, "Seconds until a renderer is given up")
         ->capture_default_str()
         ->check(CLI::PositiveNumber);
+    check
+        .add_option("--tolerance", check_command.tolerance,
+                    "Choose each renderer's samples by a pilot so that the mean picture of every experiment has at most "
+                    "this RMS noise, relative to its mean radiance. Tiles never get more than their budget allows, "
+                    "numbers never fewer samples than their claim asks (default: the claims' own samples)")
+        ->check(CLI::Range(1e-9, 0.999));
     check.add_option("--precision", check_command.precision, "Tracer: float or double")->capture_default_str();
     check
         .add_option("--image", check_command.images,
@@ -279,6 +352,11 @@ int run(int argc, char **argv, const std::vector<SceneRecipe> &scenes, const std
         power_command);
     CLI::App &power = *app.get_subcommand("power");
     add_common(power);
+
+    TradeCommand trade_command;
+    CLI::App &trade = *app.add_subcommand("trade", "What accuracy costs: error against time for every renderer and knob");
+    add_trade_options(trade, trade_command);
+    add_common(trade);
 
     CompareRequest compare_request;
     CLI::App &compare = *app.add_subcommand("compare", "Two or three pictures, tile by tile");
@@ -329,6 +407,7 @@ int run(int argc, char **argv, const std::vector<SceneRecipe> &scenes, const std
         if (check) exit = command_check(shop, check_command);
         if (gallery) exit = command_gallery(shop, gallery_command);
         if (power) exit = command_power(shop, power_command);
+        if (trade) exit = command_trade(shop, trade_command);
         if (compare) exit = command_compare(shop, compare_request);
         if (optics) exit = static_cast<Exit>(run_optics(optics_query, std::cout));
         std::cout.flush();

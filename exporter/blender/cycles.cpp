@@ -44,6 +44,8 @@ Adapter cycles_adapter() {
     adapter.parse_version = parse_blender_version;
     adapter.explain_failure = explain_blender_failure;
     adapter.sample_factor = 8; // glass reflects or refracts at random
+    // "... | Sample 0/32": meshes and their hierarchy are built.
+    adapter.rendering_begins = [](std::string_view line) { return line.find("| Sample 0/") != line.npos; };
     return adapter;
 }
 

@@ -390,11 +390,12 @@ def set_render(scene, scene_data):
         use_motion_blur=False, use_simplify=False, use_multiview=False, use_stamp=False,
         use_persistent_data=len(scene_data["replicates"]) > 1)
     set_samples(scene.cycles, sampling["samples"], sampling["filter"])
+    deepest = sampling.get("bounces", DEEPEST)
     put(scene.cycles, device="CPU",
         # One-pixel box, exact whatever the width; a narrow Gaussian stands for the pixel's centre alone.
         pixel_filter_type=sampling["filter"], filter_width=0.01,
         use_animated_seed=False, use_adaptive_sampling=False, time_limit=0.0, use_denoising=False,
-        max_bounces=DEEPEST, glossy_bounces=DEEPEST, transmission_bounces=DEEPEST, transparent_max_bounces=DEEPEST,
+        max_bounces=deepest, glossy_bounces=deepest, transmission_bounces=deepest, transparent_max_bounces=DEEPEST,
         diffuse_bounces=0,  # direct light only
         min_light_bounces=DEEPEST, min_transparent_bounces=DEEPEST,  # no roulette: what tint takes, it takes evenly
         caustics_reflective=True, caustics_refractive=True, blur_glossy=0.0,

@@ -129,7 +129,7 @@ Json write_replicates(const RenderJob &job, CyclesScene &made) {
 /// Glass chooses between reflection and refraction at random, a lit surface between the lights; all else is certain.
 bool is_random(const Needs &needs) { return needs.ray_tree || needs.many_lights; }
 
-Json write_sampling(const RenderJob &job, const Needs &needs) {
+Json sampling_by_filter(const RenderJob &job, const Needs &needs) {
     switch (job.sampling) {
     case Sampling::pixel_centres:
         return {{"filter", "GAUSSIAN"},
@@ -139,6 +139,12 @@ Json write_sampling(const RenderJob &job, const Needs &needs) {
         return {{"filter", "BOX"}, {"samples", job.samples_per_pixel}, {"window", needs.ray_tree}};
     }
     return {};
+}
+
+Json write_sampling(const RenderJob &job, const Needs &needs) {
+    Json sampling = sampling_by_filter(job, needs);
+    if (job.most_bounces) sampling["bounces"] = std::clamp(*job.most_bounces, 1, 256);
+    return sampling;
 }
 
 void refuse_what_cannot_be_said(const Scene &scene, const Needs &needs, const Frame &frame) {

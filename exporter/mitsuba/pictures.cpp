@@ -58,6 +58,7 @@ double extent_mm(const Scene &scene) {
 
 MitsubaJob to_mitsuba_job(const RenderJob &job, std::string_view label) {
     const auto refuse = [](const std::string &what) { throw Error(Exit::bad_data, "Mitsuba: " + what); };
+    if (job.most_bounces) refuse("how many surfaces a path may meet is not asked of it");
     if (job.slip != Slip{}) refuse("it cannot be made to follow light wrongly on purpose");
     const bool centres = job.sampling == Sampling::pixel_centres;
     const Needs needed = needs(job.scene);

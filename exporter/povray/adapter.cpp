@@ -75,6 +75,23 @@ std::string explain_failure(std::string_view log) {
     return {};
 }
 
+/// "Trace Time: ... (65.649 seconds)", and on the next line "using 2 thread(s) with 90.633 CPU-seconds total", once a
+/// frame.
+std::optional<double> own_cpu_seconds(std::string_view log) {
+    constexpr std::string_view unit = " CPU-seconds total";
+    std::optional<double> sum;
+    for (std::size_t at = log.find("Trace Time:"); at != log.npos; at = log.find("Trace Time:", at + 1)) {
+        const std::size_t end = log.find(unit, at);
+        const std::size_t with = end == log.npos ? log.npos : log.rfind(" with ", end);
+        if (with == log.npos || with < at) return std::nullopt;
+        double seconds = 0;
+        const char *first = log.data() + with + 6;
+        if (std::from_chars(first, log.data() + end, seconds).ec != std::errc()) return std::nullopt;
+        sum = sum.value_or(0) + seconds;
+    }
+    return sum;
+}
+
 } // namespace
 
 Adapter povray_adapter() {
@@ -86,7 +103,10 @@ Adapter povray_adapter() {
             .progress = progress,
             .version_argument = "--version",
             .parse_version = parse_version,
-            .explain_failure = explain_failure};
+            .explain_failure = explain_failure,
+            .sample_factor = 1,
+            .rendering_begins = [](std::string_view line) { return line.starts_with("==== [Rendering"); },
+            .own_cpu_seconds = own_cpu_seconds};
 }
 
 } // namespace threefold

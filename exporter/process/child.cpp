@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <sstream>
 #include <system_error>
 #include <utility>
 
@@ -53,6 +54,65 @@ bool is_program(const fs::path &path) {
     return fs::is_regular_file(path, ignored) && ::access(path.c_str(), X_OK) == 0;
 }
 
+/// The leader of a process group. It is reaped only after its group was killed: until then its number cannot be
+/// another's.
+class Group {
+public:
+    explicit Group(pid_t leader) : leader_(leader) {}
+    ~Group() {
+        if (!reaped_) reap();
+    }
+    Group(const Group &) = delete;
+    Group &operator=(const Group &) = delete;
+
+    void send(int signal) const { ::kill(-leader_, signal); }
+
+    bool leader_has_ended() const {
+        siginfo_t info{};
+        const int result = ::waitid(P_PID, static_cast<id_t>(leader_), &info, WEXITED | WNOHANG | WNOWAIT);
+        return result == 0 ? info.si_pid == leader_ : errno != EINTR;
+    }
+
+    /// Kills what is left of the group and takes the leader's end.
+    std::pair<int, rusage> reap() {
+        send(SIGKILL);
+        int status = 0;
+        rusage usage{};
+        pid_t result;
+        do result = ::wait4(leader_, &status, 0, &usage);
+        while (result < 0 && errno == EINTR);
+        reaped_ = true;
+        if (result < 0) status = -1;
+        return {status, usage};
+    }
+
+    /// The kernel starts a child's peak at its parent's size, so the peak is also read where it is right: as of now.
+    double peak_memory_kb() const {
+        std::string text;
+        OIIO::Filesystem::read_text_file(fmt::format("/proc/{}/status", leader_), text);
+        const std::size_t found = text.find("VmHWM:");
+        return found == text.npos ? 0 : std::strtod(text.c_str() + found + std::strlen("VmHWM:"), nullptr);
+    }
+
+    /// Of the leader so far, in clock ticks; nothing when it cannot be read.
+    std::optional<double> cpu_seconds() const {
+        std::string text;
+        OIIO::Filesystem::read_text_file(fmt::format("/proc/{}/stat", leader_), text);
+        const std::size_t name_end = text.rfind(')'); // the name may hold anything
+        if (name_end == text.npos) return std::nullopt;
+        std::istringstream fields(text.substr(name_end + 1));
+        std::string skipped;
+        for (int field = 3; field < 14; ++field) fields >> skipped;
+        double user = 0, system = 0;
+        if (!(fields >> user >> system)) return std::nullopt;
+        return (user + system) / static_cast<double>(::sysconf(_SC_CLK_TCK));
+    }
+
+private:
+    pid_t leader_;
+    bool reaped_ = false;
+};
+
 /// The child's output as it comes: to the log as it stands, and in lines to the caller.
 class Output {
 public:
@@ -80,6 +140,9 @@ public:
     }
 
     const std::string &first_line() const { return first_line_; }
+    /// Whose time a marking line is asked for.
+    void watch(const Group &group) { group_ = &group; }
+    std::optional<double> cpu_seconds_at_mark() const { return cpu_seconds_at_mark_; }
 
 private:
     void append_to_log(std::string_view bytes) {
@@ -89,6 +152,8 @@ private:
     void finish_line() {
         if (line_.empty()) return;
         if (first_line_.empty()) first_line_ = line_;
+        if (request_.marks && group_ && !cpu_seconds_at_mark_ && request_.marks(line_))
+            cpu_seconds_at_mark_ = group_->cpu_seconds();
         if (request_.on_line) request_.on_line(line_);
         line_.clear();
     }
@@ -102,6 +167,8 @@ private:
     const ChildRequest &request_;
     Descriptor log_;
     std::string line_, first_line_;
+    const Group *group_ = nullptr;
+    std::optional<double> cpu_seconds_at_mark_;
 };
 
 struct SpawnSettings {
@@ -152,51 +219,6 @@ pid_t spawn(const ChildRequest &request, int output_pipe) {
         throw_not_started(request, reason(error));
     return pid;
 }
-
-/// The leader of a process group. It is reaped only after its group was killed: until then its number cannot be
-/// another's.
-class Group {
-public:
-    explicit Group(pid_t leader) : leader_(leader) {}
-    ~Group() {
-        if (!reaped_) reap();
-    }
-    Group(const Group &) = delete;
-    Group &operator=(const Group &) = delete;
-
-    void send(int signal) const { ::kill(-leader_, signal); }
-
-    bool leader_has_ended() const {
-        siginfo_t info{};
-        const int result = ::waitid(P_PID, static_cast<id_t>(leader_), &info, WEXITED | WNOHANG | WNOWAIT);
-        return result == 0 ? info.si_pid == leader_ : errno != EINTR;
-    }
-
-    /// Kills what is left of the group and takes the leader's end.
-    std::pair<int, rusage> reap() {
-        send(SIGKILL);
-        int status = 0;
-        rusage usage{};
-        pid_t result;
-        do result = ::wait4(leader_, &status, 0, &usage);
-        while (result < 0 && errno == EINTR);
-        reaped_ = true;
-        if (result < 0) status = -1;
-        return {status, usage};
-    }
-
-    /// The kernel starts a child's peak at its parent's size, so the peak is also read where it is right: as of now.
-    double peak_memory_kb() const {
-        std::string text;
-        OIIO::Filesystem::read_text_file(fmt::format("/proc/{}/status", leader_), text);
-        const std::size_t found = text.find("VmHWM:");
-        return found == text.npos ? 0 : std::strtod(text.c_str() + found + std::strlen("VmHWM:"), nullptr);
-    }
-
-private:
-    pid_t leader_;
-    bool reaped_ = false;
-};
 
 double to_seconds(const timeval &time) { return double(time.tv_sec) + 1e-6 * double(time.tv_usec); }
 
@@ -265,6 +287,7 @@ ChildResult run_child(const ChildRequest &request) {
 
     const Clock::time_point start = Clock::now();
     Group group(spawn(request, child_end.number()));
+    output.watch(group);
     child_end.close();
 
     ChildResult result;
@@ -309,6 +332,7 @@ ChildResult run_child(const ChildRequest &request) {
         OIIO::Strutil::starts_with(output.first_line(), "setpriv: "))
         throw_not_started(request, output.first_line());
 
+    result.cpu_seconds_at_mark = output.cpu_seconds_at_mark();
     result.cpu_seconds = to_seconds(usage.ru_utime) + to_seconds(usage.ru_stime);
     if (double(usage.ru_maxrss) > own_peak_memory_kb()) peak_kb = double(usage.ru_maxrss);
     result.peak_memory_mb = peak_kb * 1024 / 1e6;

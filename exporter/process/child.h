@@ -26,6 +26,8 @@ struct ChildRequest {
     /// Called from the waiting thread with each line of output ('\n' and '\r' both end one; empty lines are left out,
     /// and one of more than 64 KiB comes in pieces).
     std::function<void(std::string_view)> on_line;
+    /// The first line for which this is true marks a moment: `ChildResult::cpu_seconds_at_mark`. May be empty.
+    std::function<bool(std::string_view)> marks;
 };
 
 struct ChildResult {
@@ -34,6 +36,7 @@ struct ChildResult {
     int signal = 0;     ///< when signalled
     double seconds = 0; ///< until it ended; when timed out, until it was told to end
     double cpu_seconds = 0;
+    std::optional<double> cpu_seconds_at_mark; ///< used by the child itself so far; in steps of a clock tick (10 ms)
     double peak_memory_mb = 0;
 
     /// "exit code 1", "killed by signal 11 (Segmentation fault)", "ran out of time after 600 s".

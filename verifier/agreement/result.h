@@ -90,6 +90,7 @@ struct RenderRecord {
     std::string command;
     int width_px = 0, height_px = 0, replicates = 0, samples_per_pixel = 0;
     double seconds = 0, cpu_seconds = 0, peak_memory_mb = 0;
+    double own_cpu_seconds = 0; ///< of rendering alone, without start-up
     bool from_cache = false;
     std::optional<double> missing_weight_mean, missing_weight_greatest; ///< where a tree was cut and the renderer tells
     Accuracy accuracy;

@@ -118,7 +118,22 @@ private:
         RenderJob job = job_of(e, seed_of(w), request_.threads);
         if (const auto fault = request_.injected.find(w.name); fault != request_.injected.end())
             job = with_fault(std::move(job), fault->second);
-        return {&w, std::move(job), {request_.folder, label, request_.tracer, request_.time_limit, tell}};
+        return {&w, std::move(job), {request_.folder, label, request_.tracer, request_.time_limit, tell},
+                noise_wanted(w, e)};
+    }
+
+    std::optional<NoiseWanted> noise_wanted(const Witness &w, const Experiment &e) const {
+        if (!request_.tolerance || w.pictures || e.sampling != Sampling::box) return std::nullopt;
+        NoiseWanted wanted{*request_.tolerance};
+        if (!e.tile_budget) {
+            wanted.least_samples = e.samples_per_pixel;
+            return wanted;
+        }
+        // Of independent pixels a tile's mean has 1 / tile_px of their noise; an interval within the tolerance takes
+        // four standard errors or so.
+        constexpr double standard_errors = 4;
+        wanted.absolute = total(e.tile_budget(Accuracy{}, Accuracy{})) * e.tile_px / standard_errors;
+        return wanted;
     }
 
     void keep(RenderRecord record, const Witness &w, const Experiment &e, Preset preset) {

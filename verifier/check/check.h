@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,10 @@ struct CheckRequest {
     std::uint64_t seed = 1;
     std::map<std::string, std::uint64_t> seeds; ///< by witness name, in place of `seed`
     int threads = 0;
+    /// Noise of the mean picture of every experiment that is a mean over pixels, relative RMS: each renderer's samples
+    /// are chosen by it. Pictures that are compared tile by tile never get more noise than their tiles' budget allows,
+    /// those that numbers are read from never fewer samples than their claim asks. Empty: the claims' own samples.
+    std::optional<double> tolerance;
     TracerSettings tracer;
     std::chrono::milliseconds time_limit{std::chrono::minutes(10)};
     std::filesystem::path folder;

@@ -19,6 +19,7 @@ std::vector<Answer> hear(std::vector<Question> questions, bool at_once) {
         answers.push_back(std::async(at_once ? std::launch::async : std::launch::deferred, [&q] {
             Answer answer{q.witness, std::nullopt, nullptr};
             try {
+                if (q.noise) q.job.samples_per_pixel = samples_for_noise(*q.witness, q.job, *q.noise, q.options);
                 answer.rendered = render(*q.witness, std::move(q.job), q.options);
             } catch (...) {
                 answer.failure = std::current_exception();

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "verifier/tolerance/tolerance.h"
 #include "verifier/witness/witness.h"
 
 namespace threefold {
@@ -15,6 +16,7 @@ struct Question {
     const Witness *witness;
     RenderJob job;
     RenderOptions options; ///< on_progress is called from one thread at a time, whichever
+    std::optional<NoiseWanted> noise{}; ///< chooses the samples, by a pilot with this renderer
 };
 
 struct Answer {

@@ -80,6 +80,7 @@ TracerOutcome trace(const RenderJob &job, const TracerSettings &settings,
     if (n.environment_on_diffuse)
         throw Error(Exit::bad_data,
                     "the tracer lights diffuse surfaces by parallel lights only: give the environment a dome of them");
+    if (job.most_bounces) throw Error(Exit::bad_data, "the tracer ends a tree by its weight, not by a number of surfaces");
     TracerOutcome outcome;
     const bool roulette = settings.transport == Transport::roulette;
     tbb::task_arena arena(job.threads > 0 ? job.threads : tbb::task_arena::automatic);

@@ -82,6 +82,7 @@ std::optional<Rendered> cached(const std::filesystem::path &folder, const std::s
         r.record.seconds = done.at("seconds");
         r.record.cpu_seconds = done.at("cpu_seconds");
         r.record.peak_memory_mb = done.at("peak_memory_mb");
+        r.record.own_cpu_seconds = done.value("own_cpu_seconds", r.record.cpu_seconds);
         if (done.contains("missing_weight_mean")) {
             r.record.missing_weight_mean = done.at("missing_weight_mean");
             r.record.missing_weight_greatest = done.at("missing_weight_greatest");
@@ -98,6 +99,7 @@ void keep(const std::filesystem::path &folder, const std::string &key, const Ren
     Json done{{"key", key},
               {"seconds", r.record.seconds},
               {"cpu_seconds", r.record.cpu_seconds},
+              {"own_cpu_seconds", r.record.own_cpu_seconds},
               {"peak_memory_mb", r.record.peak_memory_mb}};
     if (r.record.missing_weight_mean) {
         done["missing_weight_mean"] = *r.record.missing_weight_mean;
@@ -111,7 +113,7 @@ Rendered render_by_tracer(const RenderJob &job, const RenderOptions &options) {
     Rendered r;
     r.images = std::move(outcome.images);
     r.record.seconds = outcome.seconds;
-    r.record.cpu_seconds = outcome.cpu_seconds;
+    r.record.cpu_seconds = r.record.own_cpu_seconds = outcome.cpu_seconds;
     r.record.missing_weight_mean = outcome.missing_weight_mean;
     r.record.missing_weight_greatest = outcome.missing_weight_greatest;
     return r;
@@ -125,6 +127,7 @@ Rendered render_by_program(const Witness &witness, const RenderJob &job, const E
     r.images = std::move(outcome.images);
     r.record.seconds = outcome.seconds;
     r.record.cpu_seconds = outcome.cpu_seconds;
+    r.record.own_cpu_seconds = outcome.own_cpu_seconds;
     r.record.peak_memory_mb = outcome.peak_memory_mb;
     return r;
 }
