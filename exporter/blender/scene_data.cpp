@@ -12,6 +12,7 @@
 
 #include "exporter/blender/objects.h"
 #include "exporter/blender/to_blender.h"
+#include "exporter/trapped_light.h"
 #include "scenes/access.h"
 #include "scenes/camera.h"
 #include "scenes/light.h"
@@ -31,6 +32,7 @@ constexpr double lost_at_edges = 5e-5;
 /// Glass farther from the origin than this many of its radii is drawn out of place (measured: right to 10, by 4 pixels
 /// wrong at 100).
 constexpr double farthest_glass_radii = 10;
+constexpr int deepest_path = 256; ///< bounces: DEEPEST of the script
 
 std::vector<Sphere> outer_spheres(const Scene &scene) {
     std::vector<Sphere> spheres;
@@ -220,6 +222,12 @@ CyclesScene describe_for_cycles(const RenderJob &job) {
     made.files = std::move(objects.files);
     made.accuracy.surface_mm = objects.surface_mm;
     if (required.glass) made.accuracy.lost_paths = lost_at_edges;
+    if (required.ray_tree) made.accuracy.trapped_light = trapped_light(scene, deepest_path);
+    if (made.accuracy.trapped_light > most_trapped_light)
+        refuse_for_cycles(fmt::format("{:.2g} of the picture's light meets more than {} surfaces of glass, where its "
+                                      "paths end, and would be lost; at most {:g} may be",
+                                      made.accuracy.trapped_light, deepest_path, most_trapped_light),
+                          "show more than the outermost rim, or use the tracer");
     made.data = {{"name", scene.name},
                           {"unit_mm", unit_mm},
                           {"origin_mm", to_json(frame.origin_mm)},

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "exporter/povray/writer.h"
+#include "exporter/trapped_light.h"
 #include "scenes/light.h"
 #include "scenes/validate.h"
 
@@ -148,6 +149,13 @@ Exported compile_povray(const RenderJob &job) {
         povray::refuse(
             fmt::format("{} samples per pixel make a picture of {:.3g} pixels; at most {:.3g} can be read back",
                         job.samples_per_pixel, pixels, most_pixels));
+    const int depth = greatest_depth(job.scene);
+    const double trapped = needed.ray_tree ? trapped_light(job.scene, depth) : 0;
+    if (trapped > most_trapped_light)
+        povray::refuse(fmt::format("{:.2g} of the picture's light meets more than {} surfaces of glass, its limit, and "
+                                   "would be lost; at most {:g} may be",
+                                   trapped, depth, most_trapped_light),
+                       "show more than the outermost rim, or use the tracer");
     exported.radiance_scale = writer.radiance_scale;
     writer.text = head(job, writer.space, writer.radiance_scale);
     write_camera(writer);
@@ -161,6 +169,7 @@ Exported compile_povray(const RenderJob &job) {
     exported.accuracy.radiance_step = 0.5 / white / writer.radiance_scale;
     exported.accuracy.rounding_mm = std::max(writer.mesh_rounding_mm, rounding_mm(job.scene, writer.space));
     exported.accuracy.cut_weight = job.cut_weight;
+    exported.accuracy.trapped_light = trapped;
     exported.files.push_back({"scene.pov", std::move(writer.text)});
     for (ExportedFile &texture : writer.textures) exported.files.push_back(std::move(texture));
     return exported;

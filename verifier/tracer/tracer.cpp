@@ -5,6 +5,7 @@
 #include <chrono>
 #include <ctime>
 #include <mutex>
+#include <optional>
 
 #include <tbb/blocked_range2d.h>
 #include <tbb/enumerable_thread_specific.h>
@@ -12,6 +13,7 @@
 #include <tbb/task_arena.h>
 
 #include "exporter/process/child.h"
+#include "scenes/access.h"
 #include "scenes/camera.h"
 #include "scenes/error.h"
 #include "scenes/validate.h"
@@ -29,6 +31,26 @@ double process_cpu_seconds() {
     timespec now{};
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
     return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) * 1e-9;
+}
+
+/// Numbers are finest about the origin, and the orb is where they matter: the scene with its first orb there. Nothing of
+/// it is lost, since differences of near numbers are exact. Empty where the orb stands there already, or there is none.
+std::optional<Scene> about_its_orb(const Scene &scene) {
+    std::optional<Vec3> centre;
+    for (const Object &object : scene.objects)
+        if (const auto orb = outer_sphere(object.shape); orb && !centre) centre = orb->centre_mm;
+    if (!centre || *centre == Vec3(0)) return std::nullopt;
+    Scene moved = scene;
+    for (Object &object : moved.objects)
+        std::visit(overloaded{[&](GlassBall &b) { b.centre_mm -= *centre; },
+                              [&](GlassShell &s) { s.centre_mm -= *centre; }, [&](Quad &q) { q.centre_mm -= *centre; },
+                              [&](Mesh &m) {
+                                  for (Vec3 &v : m.vertices_mm) v -= *centre;
+                              }},
+                   object.shape);
+    moved.camera.eye_mm -= *centre;
+    moved.camera.target_mm -= *centre;
+    return moved;
 }
 
 template <class Real>
@@ -76,6 +98,11 @@ void render(const RenderJob &job, const TreeEnd<Real> &end, const std::function<
 
 TracerOutcome trace(const RenderJob &job, const TracerSettings &settings,
                     const std::function<void(double)> &on_progress) {
+    if (std::optional<Scene> moved = about_its_orb(job.scene)) {
+        RenderJob same = job;
+        same.scene = *std::move(moved);
+        return trace(same, settings, on_progress);
+    }
     const Needs n = needs(job.scene);
     if (n.caustics) throw Error(Exit::bad_data, "the tracer does not follow caustics onto diffuse surfaces");
     if (n.environment_on_diffuse)
