@@ -17,7 +17,7 @@ struct ExactPixel {
     double to_edge_mm = 0; ///< to the nearest impact at which light takes another way: the outer radius, inner, index * inner
 
     /// What relative changes of all given numbers do, summed over them: nobody can know the landing better than one
-    /// rounding of the given numbers times this.
+    /// rounding of the given numbers times this. Places count from the orb's centre.
     double condition_mm = 0, impact_condition_mm = 0; ///< of the landing, and of the impact
 
     // By how much the landing moves, mm a mm or a pixel.

@@ -7,6 +7,8 @@
 #include <mutex>
 #include <optional>
 
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
 #include <tbb/blocked_range2d.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
@@ -51,6 +53,23 @@ std::optional<Scene> about_its_orb(const Scene &scene) {
     moved.camera.eye_mm -= *centre;
     moved.camera.target_mm -= *centre;
     return moved;
+}
+
+/// Which of two things a ray meets first is told by their distances from the eye, rounded.
+void refuse_too_far_an_eye(const Scene &scene) {
+    constexpr double spacing = 0x1p-23, greatest_share = 0.1;
+    for (const Object &object : scene.objects) {
+        const auto orb = outer_sphere(object.shape);
+        if (!orb) continue;
+        const double distance_mm = glm::distance(orb->centre_mm, scene.camera.eye_mm);
+        const double farthest_mm = greatest_share / spacing * orb->radius_mm;
+        if (distance_mm > farthest_mm)
+            throw Error(Exit::bad_data,
+                        fmt::format("the tracer in single precision: the eye is {:.3g} mm from an orb of radius {:.3g} mm; "
+                                    "beyond {:.3g} mm it cannot tell whether the orb or what stands behind comes first",
+                                    distance_mm, orb->radius_mm, farthest_mm),
+                        "use double precision");
+    }
 }
 
 template <class Real>
@@ -122,6 +141,7 @@ TracerOutcome trace(const RenderJob &job, const TracerSettings &settings,
         };
         switch (settings.precision) {
         case Precision::single_precision:
+            refuse_too_far_an_eye(job.scene);
             run(float{});
             break;
         case Precision::double_precision:
