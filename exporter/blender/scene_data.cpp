@@ -224,7 +224,7 @@ CyclesScene describe_for_cycles(const RenderJob &job) {
     if (required.glass) made.accuracy.lost_paths = lost_at_edges;
     if (required.ray_tree) made.accuracy.trapped_light = trapped_light(scene, deepest_path);
     if (made.accuracy.trapped_light > most_trapped_light)
-        refuse_for_cycles(fmt::format("{:.2g} of the picture's light meets more than {} surfaces of glass, where its "
+        refuse_for_cycles(fmt::format("{:.3g} of the picture's light meets more than {} surfaces of glass, where its "
                                       "paths end, and would be lost; at most {:g} may be",
                                       made.accuracy.trapped_light, deepest_path, most_trapped_light),
                           "show more than the outermost rim, or use the tracer");

@@ -108,7 +108,7 @@ std::vector<ExtremeSweep> shape_sweeps() {
     all.push_back(sweep("wall", "Ever thinner wall of a hollow orb", "wall / R",
                         join(decades(-1, -9, always), {{0, false}}), [](double w) { return before_card(shell(w)); }));
     all.push_back(sweep("hollow", "Ever smaller hollow in a thick orb", "hollow / R",
-                        {{0.5, true}, {0.1, true}, {1e-2, true}, {1e-3, true}, {1e-6, true}, {1e-9, true}, {1e-12, false}, {0, false}},
+                        {{0.5, true}, {0.1, true}, {1e-2, true}, {1e-3, true}, {2e-4, true}, {1e-6, true}, {1e-9, true}, {1e-12, false}, {0, false}},
                         [](double h) {
                             Scene scene = before_card(shell(1 - h));
                             // Only rays near the axis meet so small a hollow.
