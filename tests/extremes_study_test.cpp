@@ -260,6 +260,79 @@ TEST(TrappedLight, IsRefusedByThoseWhosePathsEnd) {
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
+// What comes out wrong is refused, and what lies just before it is not
+
+Scene scene_at(std::string_view sweep_name, double value) {
+    for (const ExtremeSweep &sweep : extreme_sweeps(false))
+        if (sweep.name == sweep_name)
+            for (const ExtremePoint &point : sweep.points)
+                if (std::abs(point.value - value) <= 1e-6 * std::abs(value)) return point.scene;
+    throw std::runtime_error("no such point");
+}
+
+std::string refusal(std::string_view adapter_name, const Scene &scene) {
+    for (const Adapter &adapter : adapters())
+        if (adapter.name == adapter_name) {
+            RenderJob job;
+            job.scene = scene;
+            job.sampling = Sampling::pixel_centres;
+            try {
+                adapter.compile(job);
+            } catch (const Error &error) {
+                EXPECT_EQ(error.code(), Exit::bad_data);
+                return error.what();
+            }
+        }
+    return "";
+}
+
+TEST(ExtremeRefusals, PovRayNamesTheSphereThatIsLostInTheScene) {
+    EXPECT_EQ(refusal("povray", scene_at("hollow", 2e-4)), "");
+    EXPECT_THAT(refusal("povray", scene_at("hollow", 1e-6)), HasSubstr("6.8e-05 mm is lost"));
+    EXPECT_EQ(refusal("povray", scene_at("eye-far", 1e5)), "");
+    EXPECT_THAT(refusal("povray", scene_at("eye-far", 1e6)), HasSubstr("radius 68 mm is lost"));
+}
+
+TEST(ExtremeRefusals, AnEyeOrABackdropThatTouchesIsAGapToBoth) {
+    EXPECT_EQ(refusal("povray", scene_at("eye-near", 1e-6)), "");
+    EXPECT_THAT(refusal("povray", scene_at("eye-near", 1e-8)), HasSubstr("gap"));
+    EXPECT_EQ(refusal("povray", scene_at("backdrop", 1e-6)), "");
+    EXPECT_THAT(refusal("povray", scene_at("backdrop", 0)), HasSubstr("gap of glass, 0 mm"));
+    EXPECT_EQ(refusal("cycles", scene_at("backdrop", 1e-4)), "");
+    EXPECT_THAT(refusal("cycles", scene_at("backdrop", 0)), HasSubstr("gap"));
+    EXPECT_EQ(refusal("cycles", scene_at("eye-near", 1e-3)), "");
+    EXPECT_THAT(refusal("cycles", scene_at("eye-near", 1e-4)), HasSubstr("near plane"));
+}
+
+TEST(ExtremeRefusals, BothTakeAWallOfAMicrometre) {
+    for (const std::string_view adapter : {"povray", "cycles"}) {
+        EXPECT_EQ(refusal(adapter, scene_at("wall", 1e-3 / 68)), "");
+        EXPECT_THAT(refusal(adapter, scene_at("wall", 1e-7)), HasSubstr("wall"));
+    }
+}
+
+TEST(ExtremeRefusals, OurTracerInSinglePrecisionNamesTheFarthestEye) {
+    RenderJob job;
+    job.scene = scene_at("eye-far", 1e5);
+    EXPECT_NO_THROW(trace(job, {Precision::single_precision}));
+    job.scene = scene_at("eye-far", 1e7);
+    EXPECT_THROW(trace(job, {Precision::single_precision}), Error);
+    EXPECT_NO_THROW(trace(job, {Precision::double_precision}));
+}
+
+TEST(ExtremeRefusals, ASphereIsMeshedToAShareOfItsRadius) {
+    for (const double scale : {1e-6, 1.0, 1e6})
+        for (const Adapter &adapter : adapters()) {
+            if (adapter.name != "cycles") continue;
+            RenderJob job;
+            job.scene = scene_at(scale < 1 ? "small" : "large", scale);
+            const double surface_mm = adapter.compile(job).accuracy.surface_mm;
+            EXPECT_LE(surface_mm, usual_surface_share * 68 * scale);
+            EXPECT_GT(surface_mm, usual_surface_share * 68 * scale / 4);
+        }
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
 // What must stay
 
 /// A wall split into two that touch turns light as the whole does: in the gap of no width the ray is in air, and its

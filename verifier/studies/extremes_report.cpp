@@ -60,10 +60,12 @@ Table table_of(const ExtremesResult &result, const ExtremeSweepResult &sweep) {
 /// The reasons of refusals, each once, with the renderer and the first point that it was given at.
 std::vector<std::string> refusals(const ExtremesResult &result, const ExtremeSweepResult &sweep) {
     std::vector<std::string> all;
-    for (std::size_t k = 0; k < result.columns.size(); ++k)
+    for (std::size_t k = 0; k < result.columns.size(); ++k) {
+        std::string last;
         for (const ExtremeRow &row : sweep.rows) {
             const ExtremeFinding &f = row.findings[k];
-            if (f.standing != Standing::refused) continue;
+            if (f.standing != Standing::refused || f.reason == last) continue;
+            last = f.reason;
             // What no renderer is asked is the same for all.
             const bool by_all = std::ranges::all_of(row.findings, [&f](const ExtremeFinding &other) {
                 return other.standing == Standing::refused && other.reason == f.reason;
@@ -71,8 +73,9 @@ std::vector<std::string> refusals(const ExtremesResult &result, const ExtremeSwe
             if (by_all && k > 0) continue;
             all.push_back(fmt::format("{} at {}: {}", by_all && result.columns.size() > 1 ? "everyone" : result.columns[k].title,
                                       row.label, f.reason));
-            if (!by_all) break; // those further out are refused alike
+            if (!by_all || result.columns.size() == 1) break; // those further out are refused alike
         }
+    }
     return all;
 }
 

@@ -106,7 +106,11 @@ constexpr auto always = [](int) { return true; };
 std::vector<ExtremeSweep> shape_sweeps() {
     std::vector<ExtremeSweep> all;
     all.push_back(sweep("wall", "Ever thinner wall of a hollow orb", "wall / R",
-                        join(decades(-1, -9, always), {{0, false}}), [](double w) { return before_card(shell(w)); }));
+                        join(join(decades(-1, -4, always), {{1e-3 / radius_mm, true}}),
+                             join(decades(-5, -9, always), {{0, false}})),
+                        [](double w) { return before_card(shell(w)); }));
+    all.back().points[4].label = "1 µm";
+    all.back().points[4].landmark = true;
     all.push_back(sweep("hollow", "Ever smaller hollow in a thick orb", "hollow / R",
                         {{0.5, true}, {0.1, true}, {1e-2, true}, {1e-3, true}, {2e-4, true}, {1e-6, true}, {1e-9, true}, {1e-12, false}, {0, false}},
                         [](double h) {
@@ -239,7 +243,7 @@ std::vector<ExtremeSweep> extreme_sweeps(bool quick) {
             std::vector<ExtremePoint> few;
             const std::size_t n = s.points.size();
             for (std::size_t i = 0; i < n; ++i)
-                if (i % 3 == 0 || i + 2 >= n) few.push_back(std::move(s.points[i]));
+                if (i % 3 == 0 || i + 2 >= n || s.points[i].landmark) few.push_back(std::move(s.points[i]));
             s.points = std::move(few);
         }
     return all;

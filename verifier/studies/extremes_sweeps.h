@@ -20,6 +20,7 @@ struct ExtremePoint {
     /// Our tracer in double precision answers for this point: it must be right there. Elsewhere it may be refused or
     /// degraded, not wrong.
     bool promised = false;
+    bool landmark = false; ///< in a quick study too
 };
 
 struct ExtremeSweep {
