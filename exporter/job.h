@@ -14,6 +14,9 @@ namespace threefold {
 /// `pixel_centres`: one ray through each pixel's sample position, no filtering. `box`: the mean over each whole pixel.
 enum class Sampling { pixel_centres, box };
 
+/// Where nobody says how near a tessellated sphere must be to the true one: of its own radius, whatever its size.
+inline constexpr double usual_surface_share = 1.5e-5;
+
 /// One of K independent repetitions of the same picture.
 struct Replicate {
     std::uint64_t seed = 1;
@@ -35,7 +38,7 @@ struct RenderJob {
     Sampling sampling = Sampling::box;
     int samples_per_pixel = 16; ///< for `box`, per replicate; a renderer that samples on a grid rounds up to a square
     std::vector<Replicate> replicates{Replicate{}};
-    double surface_tolerance_mm = 1e-3; ///< greatest distance of a tessellated glass surface from the true one
+    double surface_tolerance_mm = 0; ///< greatest distance of a tessellated glass surface; 0: usual_surface_share
     double cut_weight = 1e-6;           ///< a branch of the ray tree may be dropped below this weight, never above
     /// For studies: a path ends after so many surfaces, where a renderer counts them. Empty: as deep as it can. What it
     /// takes away is in no `Accuracy`.
@@ -54,6 +57,7 @@ struct Accuracy {
     double cut_weight = 0;         ///< branches below this weight are dropped; 0: none is dropped
     bool cuts_whole_trees = false; ///< cut_weight bounds all that is dropped of a ray's tree, not each branch
     double lost_paths = 0;         ///< greatest share of paths through glass that a renderer loses altogether
+    double trapped_light = 0;      ///< share of the picture's light that is dropped because paths may not be longer
     bool random_branches = false;  ///< follows one branch where light splits, or one light, at random: much more noise
 };
 

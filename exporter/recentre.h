@@ -11,6 +11,7 @@ struct Frame {
     Vec3 origin_mm{0};          ///< the centre of the first glass object, else the camera's target
     double extent_mm = 0;       ///< the farthest of eye, vertices and spheres from the origin
     double smallest_gap_mm = 0; ///< the least wall, ball radius, hollow or clearance of glass; infinite without glass
+    double smallest_sphere_mm = 0; ///< the least radius of a glass surface; infinite without glass
 };
 
 Frame render_frame(const Scene &scene);

@@ -126,6 +126,16 @@ struct TradeCommand {
 };
 Exit command_trade(const Shop &shop, const TradeCommand &command);
 
+struct ExtremesCommand {
+    std::vector<std::string> with;   ///< empty: all that are installed, or in a quick run the tracer alone
+    std::vector<std::string> sweeps; ///< empty: all
+    bool quick = false;
+    double time_limit_s = 600;
+    std::filesystem::path folder = "threefold-report-extremes";
+    std::optional<std::string> json;
+};
+Exit command_extremes(const Shop &shop, const ExtremesCommand &command);
+
 struct CompareRequest {
     std::vector<std::filesystem::path> pictures;
     int tile_px = 8;

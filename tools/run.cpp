@@ -9,11 +9,13 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "exporter/export/format.h"
 #include "exporter/process/child.h"
 #include "tools/command_optics.h"
 #include "tools/commands.h"
+#include "verifier/studies/extremes.h"
 #include "verifier/witness/witness.h"
 
 namespace threefold {
@@ -159,6 +161,44 @@ void add_trade_options(CLI::App &command, TradeCommand &trade) {
         "bias against a closed form where there is one, else against a converged picture of our tracer. The cheapest\n"
         "setting that should meet the tolerance is rendered with fresh seeds, and the next one where it does not.\n"
         "Exit code 0: a setting of every renderer was seen to meet every tolerance; 2: not.");
+}
+
+void add_extremes_options(CLI::App &command, ExtremesCommand &extremes) {
+    command.footer(
+        "Each sweep leads one number of a plain scene to its extreme: the wall from 0.1 R to 1e-9 R, the index to\n"
+        "1 + 1e-9, rays to 1e-12 of an edge, the scene to 1e9 times its size or 1e8 R from the origin, the eye to the\n"
+        "glass, the field of view to 1e-6 and 179 degrees, light to thousands of reflections. Every point is a real\n"
+        "render of 13 x 13 pixels, held against quad precision, and is\n"
+        "  right       within what was stated beforehand, and not visible (1e-3 R on the card, 1e-2 of the light)\n"
+        "  degraded    visible but stated, or invisible but beyond what was stated\n"
+        "  wrong       visible and beyond what was stated, or no number\n"
+        "  unresolved  too near to an edge for the stated accuracy: nothing was promised\n"
+        "  refused     with the limit and the reason, before rendering\n"
+        "Exit code 0: our tracer in double is right at all points that it answers for, and nobody is wrong; else 1.\n\n"
+        "  threefold extremes -o extremes                       all sweeps, all renderers: some ten minutes\n"
+        "  threefold extremes --quick                           our tracer in double and float, seconds\n"
+        "  threefold extremes --sweeps wall,backdrop --with tracer,povray");
+    command.add_flag("--quick", extremes.quick, "Every third point or so, and our tracer alone unless --with says more");
+    command
+        .add_option("--with", extremes.with,
+                    "Renderers, comma-separated: tracer, povray, cycles (default: all that are installed); the tracer "
+                    "takes part in double and in float")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    command
+        .add_option("--sweeps", extremes.sweeps,
+                    fmt::format("Only these, comma-separated: {}", fmt::join(extreme_sweep_names(), ", ")))
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    command
+        .add_option("-o,--output", extremes.folder,
+                    "Folder of the study: extremes.svg (the map), extremes.md, extremes.json, inputs, pictures, logs; a "
+                    "killed study goes on there")
+        ->capture_default_str();
+    command.add_option("--json", extremes.json, "Also write the result as JSON here (-: stdout)");
+    command.add_option("--timeout", extremes.time_limit_s, "Seconds until a renderer is given up")
+        ->capture_default_str()
+        ->check(CLI::PositiveNumber);
 }
 
 } // namespace
@@ -358,6 +398,12 @@ int run(int argc, char **argv, const std::vector<SceneRecipe> &scenes, const std
     add_trade_options(trade, trade_command);
     add_common(trade);
 
+    ExtremesCommand extremes_command;
+    CLI::App &extremes = *app.add_subcommand(
+        "extremes", "Where arithmetic ends in each renderer, and whether it says so: a map against quad precision");
+    add_extremes_options(extremes, extremes_command);
+    add_common(extremes);
+
     CompareRequest compare_request;
     CLI::App &compare = *app.add_subcommand("compare", "Two or three pictures, tile by tile");
     compare.add_option("pictures", compare_request.pictures, "Pictures of the same size (EXR, TIFF, PNG, ...)")
@@ -408,6 +454,8 @@ int run(int argc, char **argv, const std::vector<SceneRecipe> &scenes, const std
         if (gallery) exit = command_gallery(shop, gallery_command);
         if (power) exit = command_power(shop, power_command);
         if (trade) exit = command_trade(shop, trade_command);
+
+        if (extremes) exit = command_extremes(shop, extremes_command);
         if (compare) exit = command_compare(shop, compare_request);
         if (optics) exit = static_cast<Exit>(run_optics(optics_query, std::cout));
         std::cout.flush();

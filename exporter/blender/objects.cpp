@@ -60,11 +60,13 @@ private:
     Json glass(const std::string &name, Vec3 centre_mm, const std::vector<double> &radii_mm, const Glass &glass) {
         // The outer surface is the largest, so its triangles stray farthest.
         const double radius_mm = radii_mm.front();
-        const auto fit = coarsest_icosphere(job_.surface_tolerance_mm / radius_mm);
+        const double tolerance_mm =
+            job_.surface_tolerance_mm > 0 ? job_.surface_tolerance_mm : usual_surface_share * radius_mm;
+        const auto fit = coarsest_icosphere(tolerance_mm / radius_mm);
         if (!fit)
             refuse_for_cycles(
                 fmt::format("a sphere of radius {} mm cannot be meshed to {} mm: its finest mesh strays by {:.3g} mm",
-                            radius_mm, job_.surface_tolerance_mm, fit_icosphere(finest_icosphere).distance * radius_mm),
+                            radius_mm, tolerance_mm, fit_icosphere(finest_icosphere).distance * radius_mm),
                 "allow a larger surface tolerance");
         made_.surface_mm = std::max(made_.surface_mm, fit->distance * radius_mm);
         Json radii = Json::array();

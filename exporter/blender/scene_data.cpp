@@ -12,6 +12,7 @@
 
 #include "exporter/blender/objects.h"
 #include "exporter/blender/to_blender.h"
+#include "exporter/trapped_light.h"
 #include "scenes/access.h"
 #include "scenes/camera.h"
 #include "scenes/light.h"
@@ -31,6 +32,10 @@ constexpr double lost_at_edges = 5e-5;
 /// Glass farther from the origin than this many of its radii is drawn out of place (measured: right to 10, by 4 pixels
 /// wrong at 100).
 constexpr double farthest_glass_radii = 10;
+/// The camera's near plane stands at 1e-4 units, and the script says so. Measured: an eye 1e-3 units from the glass errs by
+/// 1e-4 of the radius, at 1e-4 units it looks from inside.
+constexpr double nearest_eye_in_units = 0.99e-3;
+constexpr int deepest_path = 256; ///< bounces: DEEPEST of the script
 
 std::vector<Sphere> outer_spheres(const Scene &scene) {
     std::vector<Sphere> spheres;
@@ -220,12 +225,25 @@ CyclesScene describe_for_cycles(const RenderJob &job) {
     refuse_what_cannot_be_said(scene, required, frame);
     const double unit_mm = unit_of(scene, frame);
     const ToBlender to_blender(frame, unit_mm);
+    for (const Sphere &orb : outer_spheres(scene)) {
+        const double gap_mm = std::abs(glm::distance(scene.camera.eye_mm, orb.centre_mm) - orb.radius_mm);
+        if (gap_mm < nearest_eye_in_units * unit_mm)
+            refuse_for_cycles(fmt::format("the eye is {:.3g} mm from the glass; Blender's near plane wants at least {:.3g} mm",
+                                          gap_mm, nearest_eye_in_units * unit_mm),
+                              "move the eye away, or use the tracer");
+    }
 
     CyclesScene made;
     CyclesObjects objects = describe_objects(job, to_blender);
     made.files = std::move(objects.files);
     made.accuracy.surface_mm = objects.surface_mm;
     if (required.glass) made.accuracy.lost_paths = lost_at_edges;
+    if (required.ray_tree) made.accuracy.trapped_light = trapped_light(scene, deepest_path);
+    if (made.accuracy.trapped_light > most_trapped_light)
+        refuse_for_cycles(fmt::format("{:.3g} of the picture's light meets more than {} surfaces of glass, where its "
+                                      "paths end, and would be lost; at most {:g} may be",
+                                      made.accuracy.trapped_light, deepest_path, most_trapped_light),
+                          "show more than the outermost rim, or use the tracer");
     made.data = {{"name", scene.name},
                           {"unit_mm", unit_mm},
                           {"origin_mm", to_json(frame.origin_mm)},

@@ -11,13 +11,6 @@
 
 namespace threefold::povray {
 
-double glass_radius_mm(const Shape &shape) {
-    return std::visit(overloaded{[](const GlassBall &ball) { return ball.radius_mm; },
-                                 [](const GlassShell &shell) { return shell.outer_radius_mm; },
-                                 [](const Quad &) { return 0.0; }, [](const Mesh &) { return 0.0; }},
-                      shape);
-}
-
 // A polygon, since POV-Ray computes it in double precision; a mesh would be in single. Defined over the unit square, so
 // that the place on it is the pigment's (u, v).
 void write_quad(Writer &writer, const Quad &quad) {

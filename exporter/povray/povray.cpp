@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "exporter/povray/writer.h"
+#include "exporter/trapped_light.h"
 #include "scenes/light.h"
 #include "scenes/validate.h"
 
@@ -101,14 +102,10 @@ int greatest_depth(const Scene &scene) {
 
 /// A path of some ten intersections, each rounded at the scale of the scene. From afar POV-Ray loses more: it takes the
 /// square of half a chord as radius^2 - distance^2 + (distance along the ray)^2.
-double rounding_mm(const Scene &scene, const povray::Space &space) {
+double rounding_mm(const povray::Space &space) {
     constexpr double epsilon = std::numeric_limits<double>::epsilon();
     const double extent_mm = space.extent / space.units_per_mm;
-    double most = 16 * epsilon * extent_mm;
-    for (const Object &object : scene.objects)
-        if (const double radius_mm = povray::glass_radius_mm(object.shape); radius_mm > 0)
-            most = std::max(most, 4 * epsilon * extent_mm * extent_mm / radius_mm);
-    return most;
+    return std::max(16 * epsilon * extent_mm, 4 * epsilon * extent_mm * extent_mm / space.smallest_sphere_mm);
 }
 
 std::string head(const RenderJob &job, const povray::Space &space, double radiance_scale) {
@@ -150,6 +147,13 @@ Exported compile_povray(const RenderJob &job) {
         povray::refuse(
             fmt::format("{} samples per pixel make a picture of {:.3g} pixels; at most {:.3g} can be read back",
                         job.samples_per_pixel, pixels, most_pixels));
+    const int depth = greatest_depth(job.scene);
+    const double trapped = needed.ray_tree ? trapped_light(job.scene, depth) : 0;
+    if (trapped > most_trapped_light)
+        povray::refuse(fmt::format("{:.3g} of the picture's light meets more than {} surfaces of glass, its limit, and "
+                                   "would be lost; at most {:g} may be",
+                                   trapped, depth, most_trapped_light),
+                       "show more than the outermost rim, or use the tracer");
     exported.radiance_scale = writer.radiance_scale;
     writer.text = head(job, writer.space, writer.radiance_scale);
     write_camera(writer);
@@ -161,8 +165,9 @@ Exported compile_povray(const RenderJob &job) {
     exported.arguments = arguments(job, exported.supersampling, pictures);
     exported.outputs = output_names(pictures);
     exported.accuracy.radiance_step = 0.5 / white / writer.radiance_scale;
-    exported.accuracy.rounding_mm = std::max(writer.mesh_rounding_mm, rounding_mm(job.scene, writer.space));
+    exported.accuracy.rounding_mm = std::max(writer.mesh_rounding_mm, rounding_mm(writer.space));
     exported.accuracy.cut_weight = job.cut_weight;
+    exported.accuracy.trapped_light = trapped;
     exported.files.push_back({"scene.pov", std::move(writer.text)});
     for (ExportedFile &texture : writer.textures) exported.files.push_back(std::move(texture));
     return exported;

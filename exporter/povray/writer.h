@@ -28,6 +28,7 @@ struct Space {
     Vec3 origin_mm{0};
     double units_per_mm = 1;
     double extent = 0; ///< of the scene about the origin, in units
+    double smallest_sphere_mm = 0; ///< of glass; infinite without
 
     Vec3 point(const Vec3 &mm) const { return (mm - origin_mm) * units_per_mm; }
     double length(double mm) const { return mm * units_per_mm; }
@@ -71,6 +72,5 @@ std::string surface_texture(Writer &writer, const Surface &surface, bool by_uv);
 /// least 1.
 double greatest_share(const Scene &scene, const Grid &grid);
 bool needs_uv(const Surface &surface);
-double glass_radius_mm(const Shape &shape); ///< outer; 0 for the others
 
 } // namespace threefold::povray

@@ -44,7 +44,7 @@ struct Experiment {
     int replicates = 8;
     /// Replicates look through different points of each pixel (for one ray a pixel, so that they are independent).
     bool shift_replicates = false;
-    double surface_tolerance_mm = 1e-3;
+    double surface_tolerance_mm = 0; ///< as of RenderJob
     double cut_weight = 1e-6;
 
     std::function<std::vector<Expected>(const Accuracy &)> predict;

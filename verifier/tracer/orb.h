@@ -57,7 +57,9 @@ bool intersect(const Orb<Real> &orb, const RayOf<Real> &ray, Entry<Real> &entry)
     const Vector<Real> to_centre = orb.centre - ray.origin;
     const Real along = glm::dot(to_centre, ray.direction);
     if (along <= 0) return false;
-    const Vector<Real> foot = along * ray.direction - to_centre;
+    // From afar the difference leaves a rounding along the ray, as large as the distance: taken out by one more step.
+    const Vector<Real> rough = along * ray.direction - to_centre;
+    const Vector<Real> foot = rough - glm::dot(rough, ray.direction) * ray.direction;
     const Real impact = glm::length(foot);
     if (!(impact < orb.outer)) return false;
     const Real depth = std::sqrt((orb.outer - impact) * (orb.outer + impact));

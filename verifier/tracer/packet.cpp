@@ -309,7 +309,9 @@ void intersect(const Orb<double> &orb, const RayPacket &rays, EntryPacket &entry
         const double cx = x - rays.origin.x.v[l], cy = y - rays.origin.y.v[l], cz = z - rays.origin.z.v[l];
         const double dx = rays.direction.x.v[l], dy = rays.direction.y.v[l], dz = rays.direction.z.v[l];
         const double along = cx * dx + cy * dy + cz * dz;
-        const double fx = along * dx - cx, fy = along * dy - cy, fz = along * dz - cz;
+        const double ax = along * dx - cx, ay = along * dy - cy, az = along * dz - cz;
+        const double slip = ax * dx + ay * dy + az * dz;
+        const double fx = ax - slip * dx, fy = ay - slip * dy, fz = az - slip * dz;
         const double impact = __builtin_sqrt(fx * fx + fy * fy + fz * fz);
         const double square = (R - impact) * (R + impact);
         const double depth = __builtin_sqrt(square > 0 ? square : 0);

@@ -5,13 +5,17 @@
 #include <chrono>
 #include <ctime>
 #include <mutex>
+#include <optional>
 
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include "exporter/process/child.h"
+#include "scenes/access.h"
 #include "scenes/camera.h"
 #include "scenes/error.h"
 #include "scenes/validate.h"
@@ -27,6 +31,43 @@ double process_cpu_seconds() {
     timespec now{};
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
     return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) * 1e-9;
+}
+
+/// Numbers are finest about the origin, and the orb is where they matter: the scene with its first orb there. Nothing of
+/// it is lost, since differences of near numbers are exact. Empty where the orb stands there already, or there is none.
+std::optional<Scene> about_its_orb(const Scene &scene) {
+    std::optional<Vec3> centre;
+    for (const Object &object : scene.objects)
+        if (const auto orb = outer_sphere(object.shape); orb && !centre) centre = orb->centre_mm;
+    if (!centre || *centre == Vec3(0)) return std::nullopt;
+    Scene moved = scene;
+    for (Object &object : moved.objects)
+        std::visit(overloaded{[&](GlassBall &b) { b.centre_mm -= *centre; },
+                              [&](GlassShell &s) { s.centre_mm -= *centre; }, [&](Quad &q) { q.centre_mm -= *centre; },
+                              [&](Mesh &m) {
+                                  for (Vec3 &v : m.vertices_mm) v -= *centre;
+                              }},
+                   object.shape);
+    moved.camera.eye_mm -= *centre;
+    moved.camera.target_mm -= *centre;
+    return moved;
+}
+
+/// Which of two things a ray meets first is told by their distances from the eye, rounded.
+void refuse_too_far_an_eye(const Scene &scene) {
+    constexpr double spacing = 0x1p-23, greatest_share = 0.1;
+    for (const Object &object : scene.objects) {
+        const auto orb = outer_sphere(object.shape);
+        if (!orb) continue;
+        const double distance_mm = glm::distance(orb->centre_mm, scene.camera.eye_mm);
+        const double farthest_mm = greatest_share / spacing * orb->radius_mm;
+        if (distance_mm > farthest_mm)
+            throw Error(Exit::bad_data,
+                        fmt::format("the tracer in single precision: the eye is {:.3g} mm from an orb of radius {:.3g} mm; "
+                                    "beyond {:.3g} mm it cannot tell whether the orb or what stands behind comes first",
+                                    distance_mm, orb->radius_mm, farthest_mm),
+                        "use double precision");
+    }
 }
 
 template <class Real>
@@ -73,6 +114,11 @@ void render(const RenderJob &job, const TreeEnd<Real> &end, const std::function<
 
 TracerOutcome trace(const RenderJob &job, const TracerSettings &settings,
                     const std::function<void(double)> &on_progress) {
+    if (std::optional<Scene> moved = about_its_orb(job.scene)) {
+        RenderJob same = job;
+        same.scene = *std::move(moved);
+        return trace(same, settings, on_progress);
+    }
     const auto start = std::chrono::steady_clock::now();
     const double cpu_start = process_cpu_seconds();
     const Needs n = needs(job.scene);
@@ -93,6 +139,7 @@ TracerOutcome trace(const RenderJob &job, const TracerSettings &settings,
         };
         switch (settings.precision) {
         case Precision::single_precision:
+            refuse_too_far_an_eye(job.scene);
             run(float{});
             break;
         case Precision::double_precision:
