@@ -297,8 +297,8 @@ std::vector<ScopeNumber> scope_of(const ClaimContext &context, const ClaimContex
     for (const bool thick : {true, false}) {
         const Experiment e = base(thick ? doubled : context, "", "", {});
         const OrbInScene orb = orb_of(e.scene);
-        const double gain = 1 - grey_environment(e.scene) / robe_radiance(e.scene), least = criterion(e.record);
-        // Darkness is lost light and shown surroundings alike: with absorption the layer is black where light is lost.
+        const double surroundings = grey_environment(e.scene) / robe_radiance(e.scene), gain = 1 - surroundings;
+        const double least = criterion(e.record);
         const auto share = [&](const OrbInScene &o, const LightModel &model, Vec2 aside) {
             return exact_share(e.scene, e.scene.camera, o, fine, model, aside);
         };
@@ -322,7 +322,7 @@ std::vector<ScopeNumber> scope_of(const ClaimContext &context, const ClaimContex
         EffectBounds of_contrast = of_share;
         for (const EffectEntry &entry : effects()) of_contrast.of(entry.effect).value *= std::abs(gain);
         // Lost light darkens the layer whatever it shows: by at most all of what the orders lose.
-        const double lost = 1 - std::exp(-4 * settings.absorption_per_mm * leg);
+        const double lost = -std::expm1(-4 * settings.absorption_per_mm * leg) * std::max(1.0, surroundings);
         of_contrast.absorption = {lost, fmt::format("the layer's light goes through {:.3g} mm of glass and, reflected "
                                                     "within, again: at most {:.2g} of it is lost",
                                                     2 * leg, lost)};

@@ -61,6 +61,7 @@ const Bound &EffectBounds::of(Effect effect) const {
 
 bool ScopeNumber::requires_effect(Effect effect) const {
     const Bound &bound = bounds.of(effect);
+    if (std::isnan(margin)) return false; // the number itself does not exist in this scene
     // What could not be told may be anything; a picture that was not asked has said nothing yet.
     return bound.depends && !bound.picture && !(bound.value <= margin);
 }
