@@ -136,6 +136,17 @@ struct ExtremesCommand {
 };
 Exit command_extremes(const Shop &shop, const ExtremesCommand &command);
 
+struct ScopeCommand {
+    std::vector<std::string> claims; ///< empty: all
+    std::string preset = "text";     ///< "text", "published" or "both"
+    std::vector<std::string> assignments;
+    ScopeSettings settings;
+    double impact_mm = 60; ///< of the one ray
+    bool quick = false;    ///< closed forms alone
+    std::optional<std::string> json, markdown;
+};
+Exit command_scope(const Shop &shop, const ScopeCommand &command);
+
 struct CompareRequest {
     std::vector<std::filesystem::path> pictures;
     int tile_px = 8;

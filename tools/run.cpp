@@ -15,6 +15,7 @@
 #include "exporter/process/child.h"
 #include "tools/command_optics.h"
 #include "tools/commands.h"
+#include "tools/scope_options.h"
 #include "verifier/studies/extremes.h"
 #include "verifier/witness/witness.h"
 
@@ -217,6 +218,7 @@ int run(int argc, char **argv, const std::vector<SceneRecipe> &scenes, const std
         "  threefold check solid-vs-hollow --set glass.index=1.1 -o water\n"
         "  threefold power --quick                  which known faults the check catches, and how small\n"
         "  threefold trade hollow --quick           what accuracy costs in each renderer\n"
+        "  threefold scope                          what the claims leave out, and whether it matters\n"
         "  threefold optics --impact-mm 60          the closed forms for one ray\n\n"
         "Exit codes: 0 holds, 1 fails, 2 undecided, 64 usage, 65 bad input, 69 renderer missing, 70 a defect of ours,\n"
         "74 input or output failed, 124 a renderer ran out of time, 130 interrupted.");
@@ -404,6 +406,13 @@ int run(int argc, char **argv, const std::vector<SceneRecipe> &scenes, const std
     add_extremes_options(extremes, extremes_command);
     add_common(extremes);
 
+    ScopeCommand scope_command;
+    add_scope_options(
+        *app.add_subcommand("scope", "What each claim leaves out, and how far it could move the claim's numbers"),
+        scope_command);
+    CLI::App &scope = *app.get_subcommand("scope");
+    add_common(scope);
+
     CompareRequest compare_request;
     CLI::App &compare = *app.add_subcommand("compare", "Two or three pictures, tile by tile");
     compare.add_option("pictures", compare_request.pictures, "Pictures of the same size (EXR, TIFF, PNG, ...)")
@@ -454,8 +463,8 @@ int run(int argc, char **argv, const std::vector<SceneRecipe> &scenes, const std
         if (gallery) exit = command_gallery(shop, gallery_command);
         if (power) exit = command_power(shop, power_command);
         if (trade) exit = command_trade(shop, trade_command);
-
         if (extremes) exit = command_extremes(shop, extremes_command);
+        if (scope) exit = command_scope(shop, scope_command);
         if (compare) exit = command_compare(shop, compare_request);
         if (optics) exit = static_cast<Exit>(run_optics(optics_query, std::cout));
         std::cout.flush();

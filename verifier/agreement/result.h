@@ -84,6 +84,15 @@ struct FlipPoint {
     std::vector<std::string> bracket{}; ///< names of the experiments rendered just below and just above it
 };
 
+/// An effect that the claim's model leaves out and that could move one of its numbers by more than its margin
+/// (claims/scope.h): the verdict stands within the model only.
+struct ScopeFinding {
+    std::string effect;         ///< "polarisation"
+    std::string quantity, unit; ///< the number it could move
+    double value = 0, bound = 0, margin = 0;
+    std::string sentence; ///< in plain words
+};
+
 struct RenderRecord {
     std::string experiment, witness, preset;
     std::string folder; ///< relative to the run's folder: inputs, log, pictures
@@ -111,6 +120,7 @@ struct ClaimResult {
     std::string summary;            ///< one or two sentences for an art historian
     std::vector<std::string> notes; ///< e.g. what exact optics says beyond the statement; what a cut tree left out
     std::vector<FlipPoint> flips;
+    std::vector<ScopeFinding> scope; ///< by closed forms alone; empty: no such effect is required
     std::vector<ExperimentRecord> experiments;
     std::vector<Row> rows;
     std::vector<TileComparison> tiles;

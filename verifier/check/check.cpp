@@ -282,7 +282,18 @@ private:
         if (planned.claim->summary) result.summary = planned.claim->summary(planned.context, result.verdict);
         if (planned.claim->notes) result.notes = planned.claim->notes(planned.context);
         if (planned.claim->flips) result.flips = planned.claim->flips(planned.context);
+        if (planned.claim->scope) result.scope = scope_findings(planned.claim->scope(planned.context, {}));
         return result;
+    }
+
+    /// Each effect once, by the number that it could move farthest beyond its margin.
+    static std::vector<ScopeFinding> scope_findings(const std::vector<ScopeNumber> &numbers) {
+        std::vector<ScopeFinding> findings;
+        for (const EffectEntry &entry : effects())
+            if (const ScopeNumber *n = most_moved(numbers, entry.effect); n && n->requires_effect(entry.effect))
+                findings.push_back({std::string(entry.name), n->quantity, n->unit, n->value,
+                                    n->bounds.of(entry.effect).value, n->margin, scope_sentence(*n, entry.effect)});
+        return findings;
     }
 
     static void blame(ClaimResult &result, const std::string &witness) {

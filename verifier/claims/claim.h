@@ -15,6 +15,7 @@
 #include "verifier/agreement/equivalence.h"
 #include "verifier/agreement/result.h"
 #include "verifier/claims/fault.h"
+#include "verifier/claims/scope.h"
 
 namespace threefold {
 
@@ -87,6 +88,8 @@ struct Claim {
     /// Where the conclusion flips, by the closed form at the scene's own parameters (claims/flip.h). `experiments` holds
     /// the renders on both sides.
     std::function<std::vector<FlipPoint>(const ClaimContext &)> flips;
+    /// How far each effect that its model leaves out could move its numbers (claims/scope.h).
+    std::function<std::vector<ScopeNumber>(const ClaimContext &, const ScopeSettings &)> scope;
     /// The fault that must make it fail when one renderer's export has it.
     Fault mutant;
 };

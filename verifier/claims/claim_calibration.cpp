@@ -8,6 +8,7 @@
 #include "scenes/texture.h"
 #include "verifier/claims/claim.h"
 #include "verifier/claims/prediction.h"
+#include "verifier/claims/scope_bounds.h"
 #include "verifier/measure/optical_map.h"
 #include "verifier/measure/radiance.h"
 
@@ -71,6 +72,23 @@ std::vector<Reading> measure_radiance(const Scene &scene, const Image &image, co
     return {{"greatest error of a known radiance", worst}, {"radiance of the surroundings", image.at(0, 0).g}};
 }
 
+std::vector<ScopeNumber> scope(const ClaimContext &context, const ScopeSettings &) {
+    const Experiment e = claim_calibration().experiments(context).front();
+    const LitBounds lit = nothing_is_lit(e.scene);
+    EffectBounds bounds = none_of_them("there is no glass in its scene");
+    bounds.light_size = lit.light_size;
+    bounds.caustics = lit.caustics;
+    bounds.interreflection = lit.interreflection;
+    bounds.pupil = Bound::none(
+        "both cards stand where the eye is focused: every point of the pupil sees the same point of them in a pixel");
+    std::vector<ScopeNumber> numbers;
+    for (const char *quantity : {"horizontal shift", "vertical scale", "greatest error of a known radiance"}) {
+        const Expected row = expected_row(e, quantity);
+        numbers.push_back({row.quantity, row.unit, row.value, total(row.budget), margin_is_tolerance, bounds});
+    }
+    return numbers;
+}
+
 } // namespace
 
 Claim claim_calibration() {
@@ -129,6 +147,7 @@ Claim claim_calibration() {
         }
         return "";
     };
+    claim.scope = scope;
     claim.mutant = Fault::camera_one_pixel;
     return claim;
 }

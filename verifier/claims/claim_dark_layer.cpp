@@ -14,6 +14,7 @@
 #include "verifier/claims/flip.h"
 #include "verifier/claims/orb_light.h"
 #include "verifier/claims/orb_marks.h"
+#include "verifier/claims/scope_bounds.h"
 #include "verifier/measure/radiance.h"
 
 namespace threefold {
@@ -80,7 +81,10 @@ bool robe_stands_beside(const Scene &scene, const OrbInScene &orb) {
 
 /// By how much of its light the layer shows the surroundings: along the rays of a picture, or (`fine` > 1) over all its
 /// columns, as many replicates see them.
-double exact_share(const Scene &scene, const Camera &camera, const OrbInScene &orb, int fine = 1) {
+double exact_share(const Scene &scene, const Camera &camera, const OrbInScene &orb, int fine = 1,
+                   const LightModel &model = {}, Vec2 pupil_mm = Vec2(0)) {
+    const CameraFrame frame = camera_frame(camera);
+    const double focus = glm::dot(orb.centre_mm - camera.eye_mm, frame.forward);
     const Band layer = layer_of(orb);
     Scene probe = scene; // surroundings of 1 behind a black robe
     probe.environment = Environment{Rgb(1)};
@@ -93,7 +97,7 @@ double exact_share(const Scene &scene, const Camera &camera, const OrbInScene &o
             const Ray ray = camera_ray(camera, at + camera.film_offset_px);
             const double b = impact_parameter(ray, orb.centre_mm);
             if (!(b > layer.from_mm && b < layer.to_mm)) continue;
-            sum += predicted_radiance(probe, orb, ray);
+            sum += predicted_radiance(probe, orb, from_pupil(ray, frame, pupil_mm, focus), model);
             count += 1;
         }
     return sum / count;
@@ -305,6 +309,51 @@ Experiment robe_width(const ClaimContext &context, const BracketSide &side) {
     return e;
 }
 
+/// `doubled`: with twice the wall of `context`.
+std::vector<ScopeNumber> scope_of(const ClaimContext &context, const ClaimContext &doubled, const ScopeSettings &settings) {
+    constexpr int fine = 2;
+    std::vector<ScopeNumber> numbers;
+    for (const bool thick : {true, false}) {
+        const Experiment e = base(thick ? doubled : context, "", "", {});
+        const OrbInScene orb = orb_of(e.scene);
+        const double surroundings = grey_environment(e.scene) / robe_radiance(e.scene), gain = 1 - surroundings;
+        const double least = criterion(e.record);
+        const auto share = [&](const OrbInScene &o, const LightModel &model, Vec2 aside) {
+            return exact_share(e.scene, e.scene.camera, o, fine, model, aside);
+        };
+        const auto by_model = [&](const LightModel &model) { return share(orb, model, Vec2(0)); };
+        const double here = by_model({}), leg = optics::glass_leg_mm(orb.optics, optics::impact_at(orb.optics, layer_of(orb).from_mm));
+        const IndexBounds index = by_index(orb.optics.index, settings, [&](double n) {
+            OrbInScene changed = orb; // seen in the same place of the film
+            changed.optics.index = n;
+            return share(changed, {}, Vec2(0));
+        });
+        const Bound polarisation = by_polarisation(by_model);
+        const LitBounds lit = nothing_is_lit(e.scene);
+        const EffectBounds of_share{.polarisation = polarisation,
+                                    .dispersion = index.dispersion,
+                                    .absorption = by_absorption(settings, by_model),
+                                    .birefringence = with_exchange(index.birefringence, settings, leg, polarisation.value),
+                                    .light_size = lit.light_size,
+                                    .caustics = lit.caustics,
+                                    .interreflection = lit.interreflection,
+                                    .pupil = by_pupil(settings, [&](Vec2 aside) { return share(orb, {}, aside); })};
+        EffectBounds of_contrast = of_share;
+        for (const EffectEntry &entry : effects()) of_contrast.of(entry.effect).value *= std::abs(gain);
+        // Lost light darkens the layer whatever it shows: by at most all of what the orders lose.
+        const double lost = -std::expm1(-4 * settings.absorption_per_mm * leg) * std::max(1.0, surroundings);
+        of_contrast.absorption = {lost, fmt::format("the layer's light goes through {:.3g} mm of glass and, reflected "
+                                                    "within, again: at most {:.2g} of it is lost",
+                                                    2 * leg, lost)};
+        const std::string wall = fmt::format(", wall {:g} mm", orb.optics.wall_mm);
+        const double value = here * gain;
+        numbers.push_back({contrast + wall, "", value, margin_to(value, {least}), margin_words({least}, ""), of_contrast});
+        if (thick)
+            numbers.push_back({own_share + wall, "", here, margin_to(here, {0.5}), margin_words({0.5}, ""), of_share});
+    }
+    return numbers;
+}
+
 } // namespace
 
 Claim claim_dark_layer() {
@@ -384,6 +433,9 @@ Claim claim_dark_layer() {
         if (const auto flip = brightness_flip(doubled)) flips.push_back(*flip);
         if (const auto flip = width_flip(doubled)) flips.push_back(*flip);
         return flips;
+    };
+    claim.scope = [thick](const ClaimContext &context, const ScopeSettings &settings) {
+        return scope_of(context, thick(context), settings);
     };
     claim.mutant = Fault::inner_surface_missing;
     return claim;

@@ -8,6 +8,7 @@
 
 #include "verifier/claims/claim.h"
 #include "verifier/claims/prediction.h"
+#include "verifier/claims/scope_bounds.h"
 #include "verifier/measure/radiance.h"
 
 namespace threefold {
@@ -132,6 +133,53 @@ Experiment furnace(const ClaimContext &context, const std::string &kind) {
     return e;
 }
 
+/// Of the darkest of many thin rings, when every order of the light is followed: in surroundings of 1 the sum of what
+/// comes out.
+double darkest_ring(const OrbInScene &orb, const LightModel &model) {
+    constexpr int rings = 100;
+    double darkest = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < rings; ++k) {
+        const double b = orb.optics.outer_mm * (k + 0.5) / rings;
+        double sum = 0;
+        for (const ExitRay &exit :
+             exit_rays(orb, {orb.centre_mm + Vec3(b, 0, 10 * orb.optics.outer_mm), {0, 0, -1}}, 1e-9, model))
+            sum += exit.weight;
+        darkest = std::min(darkest, sum);
+    }
+    return darkest;
+}
+
+std::vector<ScopeNumber> scope(const ClaimContext &context, const ScopeSettings &settings) {
+    std::vector<ScopeNumber> numbers;
+    for (const std::string kind : {"hollow", "solid"}) {
+        const Experiment e = furnace(context, kind);
+        const OrbInScene orb = orb_of(e.scene);
+        const Expected row = expected_row(e, "darkest ring");
+        const auto by_model = [&](const LightModel &model) { return darkest_ring(orb, model); };
+        const IndexBounds index = by_index(orb.optics.index, settings, [&](double n) {
+            OrbInScene changed = orb;
+            changed.optics.index = n;
+            return darkest_ring(changed, {});
+        });
+        const LitBounds lit = nothing_is_lit(e.scene);
+        const char *alike = "surroundings that are the same everywhere look the same from every point of the pupil";
+        numbers.push_back({fmt::format("radiance of the darkest ring of the {} orb", kind),
+                           "",
+                           row.value,
+                           total(row.budget),
+                           margin_is_tolerance,
+                           {.polarisation = by_polarisation(by_model),
+                            .dispersion = index.dispersion,
+                            .absorption = by_absorption(settings, by_model),
+                            .birefringence = index.birefringence,
+                            .light_size = lit.light_size,
+                            .caustics = lit.caustics,
+                            .interreflection = lit.interreflection,
+                            .pupil = Bound::none(alike)}});
+    }
+    return numbers;
+}
+
 } // namespace
 
 Claim claim_energy() {
@@ -155,6 +203,7 @@ Claim claim_energy() {
         }
         return "";
     };
+    claim.scope = scope;
     claim.mutant = Fault::radiance_slip;
     return claim;
 }

@@ -8,6 +8,7 @@
 #include "verifier/claims/claim.h"
 #include "verifier/claims/fold_experiment.h"
 #include "verifier/claims/fold_numbers.h"
+#include "verifier/claims/fold_scope.h"
 
 namespace threefold {
 
@@ -104,6 +105,11 @@ Claim claim_folds() {
                              "the leftmost fold's break is seen only where its line passes the centre by more",
                              bracket_names("folds-flip")});
         return flips;
+    };
+    claim.scope = [](const ClaimContext &context, const ScopeSettings &settings) {
+        return std::vector{
+            break_scope(context, settings, "greatest break of the four aimed folds", {}, aimed_folds),
+            break_scope(context, settings, "break of the leftmost fold", {}, {leftmost_fold})};
     };
     claim.mutant = Fault::wall_doubled;
     return claim;

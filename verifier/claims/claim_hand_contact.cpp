@@ -9,6 +9,7 @@
 #include "verifier/claims/claim.h"
 #include "verifier/claims/flip.h"
 #include "verifier/claims/prediction.h"
+#include "verifier/claims/scope_bounds.h"
 #include "verifier/measure/contact.h"
 
 namespace threefold {
@@ -128,6 +129,16 @@ std::vector<Experiment> bracket_experiments(const ClaimContext &context, const H
     return all;
 }
 
+std::vector<ScopeNumber> scope(const ClaimContext &context, const ScopeSettings &) {
+    const Hold hold = hold_of(context);
+    const double clearance = hold.clearance_at(hold.drop_mm), overlap = -rounding_share * hold.orb.radius_mm;
+    const EffectBounds none = none_of_them("it is a distance in the scene: no light is followed for it");
+    return {{"smallest distance from hand to orb, under touch", "mm", clearance, margin_to(clearance, {soft_mm}),
+             margin_words({soft_mm}, "mm"), none},
+            {"smallest distance from hand to orb, over overlap", "mm", clearance, margin_to(clearance, {overlap}),
+             margin_words({overlap}, "mm"), none}};
+}
+
 } // namespace
 
 Claim claim_hand_contact() {
@@ -185,6 +196,7 @@ Claim claim_hand_contact() {
                                   {flip.name + "-below", flip.name + "-above"}});
         return points;
     };
+    claim.scope = scope;
     claim.mutant = Fault::orb_one_millimetre;
     return claim;
 }

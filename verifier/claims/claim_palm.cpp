@@ -11,6 +11,7 @@
 #include "verifier/claims/claim.h"
 #include "verifier/claims/flip.h"
 #include "verifier/claims/palm.h"
+#include "verifier/claims/scope_bounds.h"
 #include "verifier/measure/contact.h"
 
 namespace threefold {
@@ -212,6 +213,42 @@ std::vector<Experiment> experiments(const ClaimContext &context) {
     return all;
 }
 
+std::vector<ScopeNumber> scope(const ClaimContext &context, const ScopeSettings &settings) {
+    constexpr int coarse_grid = 96; // rays across the orb: a thousand or so are the palm's
+    const Setting setting = setting_of(context);
+    std::vector<ScopeNumber> numbers;
+    for (const std::string kind : {"solid", "hollow"}) {
+        const Scene scene = setting.experiment("", "", {assign("orb.kind", kind)}).scene;
+        const OrbInScene orb = orb_of(scene);
+        const Exact exact(scene);
+        const double nan = std::numeric_limits<double>::quiet_NaN();
+        const auto at_index = [&](double n) {
+            OrbInScene changed = orb;
+            changed.optics.index = n;
+            return exact.can_be_told() ? exact.share_in_place(changed) : nan;
+        };
+        const auto from_beside = [&](Vec2 aside) {
+            const Palm palm(seen_from_beside(scene, aside));
+            const std::vector<Ray> rays = palm.rays(coarse_grid);
+            return exact.can_be_told() && !rays.empty() ? palm.share_in_place(orb, rays) : nan;
+        };
+        const double here = at_index(orb.optics.index);
+        const IndexBounds index = by_index(orb.optics.index, settings, at_index);
+        const LitBounds lit = nothing_is_lit(scene);
+        numbers.push_back({fmt::format("share of the palm seen in its place through a {} orb", kind), "", here,
+                           margin_to(here, {most}), margin_words({most}, ""),
+                           EffectBounds{.polarisation = directions_know_no_polarisation(),
+                                        .dispersion = index.dispersion,
+                                        .absorption = directions_know_no_absorption(),
+                                        .birefringence = index.birefringence,
+                                        .light_size = lit.light_size,
+                                        .caustics = lit.caustics,
+                                        .interreflection = lit.interreflection,
+                                        .pupil = by_pupil(settings, from_beside)}});
+    }
+    return numbers;
+}
+
 } // namespace
 
 Claim claim_palm() {
@@ -262,6 +299,7 @@ Claim claim_palm() {
                      {fmt::format("palm-{}-flip-below", flip.kind), fmt::format("palm-{}-flip-above", flip.kind)}});
         return points;
     };
+    claim.scope = scope;
     claim.mutant = Fault::inner_surface_missing;
     return claim;
 }

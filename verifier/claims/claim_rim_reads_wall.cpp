@@ -15,6 +15,7 @@
 #include "verifier/claims/orb_marks.h"
 #include "verifier/claims/prediction.h"
 #include "verifier/measure/edges.h"
+#include "verifier/claims/scope_bounds.h"
 #include "verifier/measure/optical_map.h"
 
 namespace threefold {
@@ -225,6 +226,38 @@ std::vector<FlipPoint> flip_points(const ClaimContext &context) {
     return flips;
 }
 
+/// The rim's width by impact parameters of the eye's middle, as a pinhole beside it sees it in the plane through the
+/// orb's centre, at the right edge. Exact for a shift to the side; a shift up or down counts by the distance alone.
+double width_seen(const optics::Orb<double> &orb, double eye_mm, Vec2 aside_mm) {
+    const double distance = std::sqrt(eye_mm * eye_mm + glm::dot(aside_mm, aside_mm));
+    const auto seen = [&](double b) {
+        const double x = aside_mm.x + eye_mm * std::tan(std::asin(b / distance) - std::atan(aside_mm.x / eye_mm));
+        return eye_mm * std::sin(std::atan(x / eye_mm));
+    };
+    return seen(orb.outer_mm) - seen(orb.outer_mm - optics::rim_width(orb));
+}
+
+std::vector<ScopeNumber> scope(const ClaimContext &context, const ScopeSettings &settings) {
+    const double wall = run_wall_mm(context);
+    const Experiment e = width_experiment(context, "", "", wall);
+    const OrbInScene orb = orb_of(e.scene);
+    const double eye = glm::length(e.scene.camera.eye_mm - orb.centre_mm);
+    const Expected row = expected_row(e, "width of the rim");
+    const IndexBounds index = by_index(orb.optics.index, settings, [&](double n) {
+        return optics::rim_width(optics::shell(orb.optics.outer_mm, wall, n));
+    });
+    const LitBounds lit = nothing_is_lit(e.scene);
+    return {{row.quantity, row.unit, row.value, total(row.budget), margin_is_tolerance,
+             EffectBounds{.polarisation = directions_know_no_polarisation(),
+                          .dispersion = index.dispersion,
+                          .absorption = directions_know_no_absorption(),
+                          .birefringence = index.birefringence,
+                          .light_size = lit.light_size,
+                          .caustics = lit.caustics,
+                          .interreflection = lit.interreflection,
+                          .pupil = by_pupil(settings, [&](Vec2 aside) { return width_seen(orb.optics, eye, aside); })}}};
+}
+
 } // namespace
 
 Claim claim_rim_reads_wall() {
@@ -272,6 +305,7 @@ Claim claim_rim_reads_wall() {
             optics::critical_radius(orb.optics), orb.optics.outer_mm - optics::critical_radius(orb.optics))};
     };
     claim.flips = flip_points;
+    claim.scope = scope;
     claim.mutant = Fault::wall_doubled;
     return claim;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The whole composition (figure 1B of the study): no number, the renderers make the same picture.
 #include "scenes/catalogue/composition.h"
+#include "verifier/claims/picture_scope.h"
 #include "verifier/claims/whole_picture.h"
 
 namespace threefold {
@@ -36,6 +37,9 @@ Claim claim_salvator() {
         return std::vector<std::string>{
             "Light that glass gathers (caustics) and light that surfaces throw on each other are left out, in every "
             "renderer: the orb's shadow is the same share of the light wherever it falls."};
+    };
+    claim.scope = [](const ClaimContext &context, const ScopeSettings &settings) {
+        return picture_scope(whole_picture(context, "salvator", 176, 259, 1), settings);
     };
     claim.mutant = Fault::camera_one_pixel;
     return claim;

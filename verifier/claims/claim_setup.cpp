@@ -5,6 +5,7 @@
 #include "scenes/camera.h"
 #include "scenes/catalogue/composition.h"
 #include "verifier/claims/prediction.h"
+#include "verifier/claims/picture_scope.h"
 #include "verifier/claims/whole_picture.h"
 
 namespace threefold {
@@ -52,6 +53,9 @@ Claim claim_setup() {
             return "It is not settled whether the renderers paint the same picture of the set-up.";
         }
         return "";
+    };
+    claim.scope = [](const ClaimContext &context, const ScopeSettings &settings) {
+        return picture_scope(whole_picture(context, "setup", 256, 128, 1), settings);
     };
     claim.mutant = Fault::camera_one_pixel;
     return claim;

@@ -9,6 +9,7 @@
 #include "verifier/claims/claim.h"
 #include "verifier/claims/fold_experiment.h"
 #include "verifier/claims/fold_numbers.h"
+#include "verifier/claims/fold_scope.h"
 
 namespace threefold {
 
@@ -132,6 +133,12 @@ Claim claim_shift() {
                 {axis.parameter, "mm", *flip, std::stod(fold_numbers(context, {}).parameters.at(axis.parameter)),
                  fmt::format("{} by more, some aimed fold's break is seen", axis.what), bracket_names("shift-flip")});
         return flips;
+    };
+    claim.scope = [](const ClaimContext &context, const ScopeSettings &settings) {
+        const std::vector<std::size_t> fold{watched_fold(context)};
+        return std::vector{
+            break_scope(context, settings, "break of an aimed fold in line", shifted(context, 0), fold),
+            break_scope(context, settings, "break of an aimed fold at 10 mm", shifted(context, study_shift_mm), fold)};
     };
     claim.mutant = Fault::wall_doubled;
     return claim;

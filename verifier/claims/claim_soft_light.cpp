@@ -12,6 +12,8 @@
 #include "scenes/light.h"
 #include "verifier/claims/claim.h"
 #include "verifier/claims/flip.h"
+#include "verifier/claims/parallel_planes.h"
+#include "verifier/claims/scope_bounds.h"
 #include "verifier/measure/penumbra.h"
 
 namespace threefold {
@@ -152,6 +154,62 @@ std::optional<double> least_visible_distance(const ClaimContext &context) {
     return root_between(excess, 1e-3, 1e3);
 }
 
+/// Irradiance of the wall at one height, without what surfaces throw on each other.
+double direct_at(const Stage &stage, const std::vector<Directional> &lights, double height_mm) {
+    double sum = 0;
+    for (const Directional &light : lights) {
+        const Vec3 travel = glm::normalize(light.travel);
+        if (!(travel.z < 0)) continue;
+        const Shadow shadow = shadow_of(stage, travel);
+        if (!(height_mm > shadow.low_mm && height_mm < shadow.high_mm)) sum += light.irradiance.r * -travel.z;
+    }
+    return sum;
+}
+
+std::vector<double> with_reflected_light(const Stage &stage, const Scene &scene) {
+    const std::vector<Directional> lights = lights_on_diffuse(scene);
+    const double gap = stage.board.centre_mm.z - stage.wall.centre_mm.z;
+    const double foot = stage.board.centre_mm.y - glm::length(stage.board.half_v_mm); // of the board, where heights begin
+    const auto &board = std::get<Rgb>(std::get<Diffuse>(stage.board.surface).reflectance);
+    const double half_wall = glm::length(stage.wall.half_v_mm);
+    const auto extra = thrown_back({gap, 2 * glm::length(stage.board.half_v_mm), stage.reflectance, board.r,
+                                    std::max(-half_wall, -20 * gap), std::min(half_wall, 20 * gap)},
+                                   [&](double height) { return direct_at(stage, lights, foot + height); });
+    std::vector<double> rows = irradiance_by_row(stage, scene);
+    for (std::size_t k = 0; k < rows.size(); ++k)
+        rows[k] += extra(stage.top_mm - (static_cast<double>(k) + 0.5) * stage.row_mm - foot);
+    return rows;
+}
+
+std::vector<ScopeNumber> scope(const ClaimContext &context, const ScopeSettings &settings) {
+    const Experiment e = penumbra_experiment(context, "", "", {}, Relation::above);
+    const Stage stage = stage_of(e);
+    const std::vector<Reading> here = readings(irradiance_by_row(stage, e.scene), stage),
+                               discs = readings(irradiance_by_row(stage, with_discs(e.scene, settings.light_deg)), stage),
+                               lit = readings(with_reflected_light(stage, e.scene), stage);
+    std::vector<ScopeNumber> numbers;
+    const char *no_glass = "there is no glass in its scene";
+    for (std::size_t k = 0; k < here.size(); ++k) {
+        const bool is_seen = here[k].quantity == seen;
+        const Expected row = expected_row(e, here[k].quantity);
+        EffectBounds bounds = none_of_them(no_glass);
+        bounds.polarisation = Bound::none("there is no glass in its scene, and a matt wall takes all polarisations alike");
+        bounds.light_size = {std::abs(discs[k].value - here[k].value),
+                             fmt::format("each of the lights as seven over a disc of {:g} degrees, their shadows' edges by "
+                                         "the closed form: {:.4g} in place of {:.4g}",
+                                         settings.light_deg, discs[k].value, here[k].value)};
+        bounds.interreflection = {std::abs(lit[k].value - here[k].value),
+                                  fmt::format("wall and board as two parallel planes that light each other, all "
+                                              "reflections, form factors of long strips: {:.4g} in place of {:.4g}",
+                                              lit[k].value, here[k].value)};
+        bounds.pupil = Bound::none("the wall is flat and in focus: every point of the pupil sees the same of it");
+        numbers.push_back({here[k].quantity, row.unit, here[k].value,
+                           is_seen ? margin_to(here[k].value, {stage.acuity_arcmin}) : total(row.budget),
+                           is_seen ? margin_words({stage.acuity_arcmin}, "arcmin") : margin_is_tolerance, bounds});
+    }
+    return numbers;
+}
+
 } // namespace
 
 Claim claim_soft_light() {
@@ -216,6 +274,7 @@ Claim claim_soft_light() {
         }
         return flips;
     };
+    claim.scope = scope;
     claim.mutant = Fault::light_missing;
     return claim;
 }

@@ -10,6 +10,7 @@
 #include "verifier/claims/claim.h"
 #include "verifier/claims/flip.h"
 #include "verifier/claims/prediction.h"
+#include "verifier/claims/scope_bounds.h"
 #include "verifier/measure/optical_map.h"
 
 namespace threefold {
@@ -301,6 +302,36 @@ std::string materials_above(double index) {
     return above.empty() ? "" : fmt::format(" Above it lie {}.", fmt::join(above, ", "));
 }
 
+std::vector<ScopeNumber> scope(const ClaimContext &context, const ScopeSettings &settings) {
+    std::vector<ScopeNumber> numbers;
+    for (const std::string kind : {"solid", "hollow"}) {
+        const View view = view_of(context, kind);
+        const double slope = optics::paraxial_slope(view.orb, view.eye_mm, view.plane_mm);
+        const IndexBounds index = by_index(view.orb.index, settings, [&](double n) {
+            optics::Orb<double> orb = view.orb;
+            orb.index = n;
+            return optics::paraxial_slope(orb, view.eye_mm, view.plane_mm);
+        });
+        // A pinhole beside the eye is farther from the orb, and sees the plane at a slant.
+        const Bound pupil = by_pupil(settings, [&](Vec2 aside) {
+            const double eye = std::hypot(view.eye_mm, glm::length(aside));
+            return optics::paraxial_slope(view.orb, eye, view.plane_mm * eye / view.eye_mm);
+        });
+        const LitBounds lit = nothing_is_lit(context.experiment("", "", kind, {}, {}).scene);
+        numbers.push_back({fmt::format("central slope of the {} orb", kind), "", slope, margin_to(slope, {0}),
+                           margin_words({0}, ""),
+                           EffectBounds{.polarisation = directions_know_no_polarisation(),
+                                        .dispersion = index.dispersion,
+                                        .absorption = directions_know_no_absorption(),
+                                        .birefringence = index.birefringence,
+                                        .light_size = lit.light_size,
+                                        .caustics = lit.caustics,
+                                        .interreflection = lit.interreflection,
+                                        .pupil = pupil}});
+    }
+    return numbers;
+}
+
 } // namespace
 
 Claim claim_solid_vs_hollow() {
@@ -386,6 +417,7 @@ Claim claim_solid_vs_hollow() {
                              {"solid-vs-hollow-plane-below", "solid-vs-hollow-plane-above"}});
         return flips;
     };
+    claim.scope = scope;
     claim.mutant = Fault::index_one_percent;
     return claim;
 }

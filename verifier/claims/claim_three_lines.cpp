@@ -19,73 +19,18 @@
 #include "scenes/catalogue/three_lines.h"
 #include "verifier/claims/claim.h"
 #include "verifier/claims/flip.h"
-#include "verifier/claims/line_crossing.h"
+#include "verifier/claims/lines_asked.h"
+#include "verifier/claims/scope_three_lines.h"
 
 namespace threefold {
 
 namespace {
 
-constexpr double inside_share = 0.9;       ///< of the clear radius: the inner circle
-constexpr double inside_share_bent = 0.95; ///< nearer to the boundary: only there a line is seen beyond its bend
-constexpr double outside_share = 1.05;     ///< of the outer radius: the outer circle
 constexpr double film_orb_share = 0.8;     ///< of the film's width that the orb fills
 constexpr double pixels_per_half_width = 4;
 constexpr int margin_px = 6, most_px = 640;
 constexpr double reading_px = 0.01;       ///< cubic convolution errs by a tenth of it, see tests/dark_line_test.cpp
 constexpr double finest_surface = 1.2e-5; ///< of the radius: finer spheres cost seconds and move no verdict
-constexpr double line_length_mm = 1000;   ///< half of it: no line ends in sight
-constexpr double arcmin_per_rad = 60 * 180 / std::numbers::pi;
-
-double number_of(const Experiment &e, const std::string &name) { return std::stod(e.record.parameters.at(name)); }
-
-struct NamedLine {
-    std::string name;
-    int channel;
-    SoftLine line;
-};
-
-/// What an experiment asks of the lines: everything that prediction, measuring and drawing share.
-struct LinesAsked {
-    LinesView view;
-    std::vector<NamedLine> lines;
-    double acuity_arcmin = 1;
-    double picture_px_mm = 1; ///< a pixel of the scene's own picture, on the lines' plane
-
-    double arcmin(const Camera &camera, double jump_mm) const {
-        return std::atan(std::abs(jump_mm) / view.plane_distance_mm(camera)) * arcmin_per_rad;
-    }
-};
-
-LinesAsked asked_of(const Experiment &e) {
-    LinesAsked asked;
-    const bool bent = e.record.parameters.contains("lines.bend_mm");
-    const OrbInScene orb = orb_of(e.scene);
-    const double angle = number_of(e, "lines.angle_deg") * std::numbers::pi / 180;
-    const double depth = number_of(e, "lines.ahead_mm") - number_of(e, "card.distance_mm");
-    const double half_width = number_of(e, "lines.half_width_mm");
-    asked.view = {orb,
-                  {{0, 0, depth}, {-std::sin(angle), std::cos(angle), 0}, {0, 0, 1}},
-                  {std::cos(angle), std::sin(angle), 0},
-                  {(bent ? inside_share_bent : inside_share) * orb.clear_radius_mm(),
-                   outside_share * orb.optics.outer_mm, angle}};
-    if (bent) {
-        const double bend = number_of(e, "lines.bend_mm");
-        // Before its bend, where the line is straight.
-        asked.view.circles.outside_mm =
-            std::clamp((orb.optics.outer_mm + bend) / 2, orb.optics.outer_mm, asked.view.circles.outside_mm);
-        asked.lines = {{"bent line", 1, {0, half_width, bend}}};
-    } else {
-        const double apart = number_of(e, "lines.shift_mm") * std::cos(angle);
-        asked.lines = {{"upper line", 0, {apart, half_width, {}}},
-                       {"middle line", 1, {0, half_width, {}}},
-                       {"lower line", 2, {-apart, half_width, {}}}};
-    }
-    asked.acuity_arcmin = number_of(e, "eye.acuity_arcmin");
-    const Camera &camera = e.scene.camera;
-    const double away = camera.projection == Projection::orthographic ? 1 : asked.view.plane_distance_mm(camera);
-    asked.picture_px_mm = 2 * film_half_width(camera) / camera.width_px * away;
-    return asked;
-}
 
 /// Looks straight at the axis, the orb at a stated share of the film, whose pixels resolve the lines where they look
 /// narrowest; of it only the crossing.
@@ -243,21 +188,10 @@ std::vector<Mark> draw(const LinesAsked &asked, const Image &image, const Camera
     return marks;
 }
 
-Experiment probe(const ClaimContext &context, std::string name, std::string title, std::string_view scene,
-                 std::vector<Assignment> fixed) {
-    for (const auto &[parameter, value] : {std::pair("lines.paint", "probe"),
-                                           {"glass.coating", "antireflective"},
-                                           {"glass.interface_transmittance", "1"},
-                                           {"environment.radiance", "1"}})
-        fixed.push_back(assign(parameter, std::string_view(value)));
-    return context.experiment(std::move(name), std::move(title), scene,
-                              {assign("lines.half_length_mm", line_length_mm)}, fixed);
-}
-
 /// A probe with everything but its predictions.
 Experiment measured_probe(const ClaimContext &context, std::string name, std::string title, std::string_view scene,
                           const std::vector<Assignment> &fixed, LinesAsked &asked) {
-    Experiment e = probe(context, std::move(name), std::move(title), scene, fixed);
+    Experiment e = lines_probe(context, std::move(name), std::move(title), scene, fixed);
     asked = asked_of(e);
     e.scene.camera = measuring_camera(asked, e.scene.camera);
     e.sampling = Sampling::pixel_centres;
@@ -292,7 +226,7 @@ constexpr const char *conclusion = "break of the upper line, as the eye sees it,
 
 /// Break of the upper line over the criterion, minus 1, with one parameter set.
 double beyond_acuity(const ClaimContext &context, std::string_view scene, std::string_view name, double value) {
-    const Experiment e = probe(context, "", "", scene, {assign(name, value)});
+    const Experiment e = lines_probe(context, "", "", scene, {assign(name, value)});
     const LinesAsked asked = asked_of(e);
     Camera camera = e.scene.camera;
     const double jump = predicted_jump(asked.view, camera, asked.lines.front().line);
@@ -319,7 +253,7 @@ std::vector<Flip> flips_of(const ClaimContext &context) {
     std::vector<Flip> flips;
     for (const std::string kind : {"hollow", "solid"}) {
         const std::string scene = "three-lines-" + kind;
-        const Experiment e = probe(context, "", "", scene, {});
+        const Experiment e = lines_probe(context, "", "", scene, {});
         const OrbInScene orb = orb_of(e.scene);
         flips.push_back({scene, shift_name, kind + "-shift",
                          fmt::format("beside the {} orb's middle line, a line breaks noticeably only when it is "
@@ -363,7 +297,7 @@ std::vector<Experiment> bracket_experiments(const ClaimContext &context) {
 std::vector<std::string> contradictions(const ClaimContext &context) {
     std::vector<std::string> found;
     for (const char *kind : {"hollow", "solid", "bent"}) {
-        const Experiment e = probe(context, "", "", std::string("three-lines-") + kind, {});
+        const Experiment e = lines_probe(context, "", "", std::string("three-lines-") + kind, {});
         const LinesAsked asked = asked_of(e);
         Camera camera = e.scene.camera;
         for (const NamedLine &named : asked.lines) {
@@ -399,7 +333,7 @@ std::string summary(const ClaimContext &context, Verdict verdict) {
 std::vector<std::string> notes(const ClaimContext &context) {
     std::vector<std::string> notes;
     for (const char *kind : {"hollow", "solid"}) {
-        const Experiment e = probe(context, "", "", std::string("three-lines-") + kind, {});
+        const Experiment e = lines_probe(context, "", "", std::string("three-lines-") + kind, {});
         const LinesAsked asked = asked_of(e);
         Camera camera = e.scene.camera;
         const double jump = predicted_jump(asked.view, camera, asked.lines.front().line);
@@ -451,6 +385,7 @@ Claim claim_three_lines() {
                                   {bracket_name(flip, "below"), bracket_name(flip, "above")}});
         return points;
     };
+    claim.scope = scope_three_lines;
     claim.mutant = Fault::index_one_percent;
     return claim;
 }

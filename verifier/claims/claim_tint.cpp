@@ -4,13 +4,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <numbers>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include "verifier/claims/claim.h"
 #include "verifier/claims/flip.h"
 #include "verifier/claims/orb_light.h"
 #include "verifier/claims/orb_marks.h"
+#include "verifier/claims/scope_bounds.h"
+#include "verifier/measure/dark_line.h"
 #include "verifier/measure/optical_map.h"
 #include "verifier/measure/radiance.h"
 
@@ -192,6 +197,97 @@ std::optional<FlipPoint> flip_of(const ClaimContext &context) {
                      {"tint-flip-below", "tint-flip-above"}};
 }
 
+/// Mean radiance of the card of 1 over a region, by area, all orders; through a point of the pupil, which is focused at
+/// the orb's centre.
+double mean_over(const Scene &scene, const OrbInScene &orb, double from_mm, double to_mm, const LightModel &model,
+                 Vec2 aside_mm = Vec2(0)) {
+    constexpr int circles = 12, azimuths = 6;
+    const CameraFrame frame = camera_frame(scene.camera);
+    const double focus = glm::dot(orb.centre_mm - scene.camera.eye_mm, frame.forward);
+    double sum = 0, weights = 0;
+    for (int k = 0; k < circles; ++k)
+        for (int j = 0; j < (aside_mm == Vec2(0) ? 1 : azimuths); ++j) {
+            const double b = from_mm + (to_mm - from_mm) * (k + 0.5) / circles, azimuth = 2 * std::numbers::pi * j / azimuths;
+            const auto ray = ray_past(scene.camera, orb.centre_mm, b, azimuth);
+            sum += b * predicted_radiance(scene, orb, from_pupil(*ray, frame, aside_mm, focus), model);
+            weights += b;
+        }
+    return sum / weights;
+}
+
+/// One number made of light: how it answers to each effect.
+EffectBounds light_bounds(const Scene &scene, const OrbInScene &orb, const ScopeSettings &settings, double glass_mm,
+                          const std::function<double(const OrbInScene &, const LightModel &, Vec2)> &number) {
+    const auto by_model = [&](const LightModel &model) { return number(orb, model, Vec2(0)); };
+    const IndexBounds index = by_index(orb.optics.index, settings, [&](double n) {
+        OrbInScene changed = orb;
+        changed.optics.index = n;
+        return number(changed, {}, Vec2(0));
+    });
+    const Bound polarisation = by_polarisation(by_model);
+    const LitBounds lit = nothing_is_lit(scene);
+    return {.polarisation = polarisation,
+            .dispersion = index.dispersion,
+            .absorption = by_absorption(settings, by_model),
+            .birefringence = with_exchange(index.birefringence, settings, glass_mm, polarisation.value),
+            .light_size = lit.light_size,
+            .caustics = lit.caustics,
+            .interreflection = lit.interreflection,
+            .pupil = by_pupil(settings, [&](Vec2 aside) { return number(orb, {}, aside); })};
+}
+
+std::vector<ScopeNumber> scope(const ClaimContext &context, const ScopeSettings &settings) {
+    const Experiment glass = with_reflections(context), coated = alone(context, "", "", Relation::above, {});
+    const Scene &scene = glass.scene;
+    const OrbInScene orb = orb_of(scene);
+    const Regions r = regions_of(orb);
+    const auto centre = [&](const OrbInScene &o, const LightModel &model, Vec2 aside) {
+        return mean_over(scene, o, 0, r.centre_mm, model, aside);
+    };
+    const auto ring = [&](const OrbInScene &o, const LightModel &model, Vec2 aside) {
+        return mean_over(scene, o, r.ring_from_mm, r.ring_to_mm, model, aside);
+    };
+    // The mean of two polarisations of a ratio is not the ratio of the means: each is carried on its own.
+    const auto ratio = [&](const OrbInScene &o, const LightModel &model, Vec2 aside) {
+        return ring(o, model, aside) / centre(o, model, aside);
+    };
+    const double leg = optics::glass_leg_mm(orb.optics, optics::impact_at(orb.optics, r.ring_to_mm));
+    std::vector<ScopeNumber> numbers;
+    for (const std::string &quantity : {through_centre, through_ring}) {
+        const Expected row = expected_row(glass, quantity);
+        const bool at_centre = quantity == through_centre;
+        numbers.push_back({quantity, "", row.value, total(row.budget), margin_is_tolerance,
+                           at_centre ? light_bounds(scene, orb, settings, leg, centre)
+                                     : light_bounds(scene, orb, settings, leg, ring)});
+    }
+    const double here = ratio(orb, {}, Vec2(0));
+    EffectBounds of_ratio = light_bounds(scene, orb, settings, leg, ratio);
+    const double truth = carried([&](const LightModel &m) { return ring(orb, m, Vec2(0)); }) /
+                         carried([&](const LightModel &m) { return centre(orb, m, Vec2(0)); });
+    of_ratio.polarisation = {std::abs(truth - here),
+                             fmt::format("s and p keep apart in the ring and at the centre: {:.4g} in place of {:.4g}",
+                                         truth, here)};
+    numbers.push_back({rim_darker, "", here, margin_to(here, {1}), margin_words({1}, ""), of_ratio});
+
+    // Coated: nothing is reflected, so that only the tint and what the glass absorbs are left.
+    const double least = criterion(coated.record), tint = std::pow(orb.glass.interface_transmittance, 4);
+    const double lost = 1 - std::exp(-2 * settings.absorption_per_mm * orb.optics.wall_mm);
+    const LitBounds lit = nothing_is_lit(coated.scene);
+    const char *alike = "coated glass reflects neither polarisation at any index: the tint stands alone, as a factor";
+    numbers.push_back(
+        {tint_darkens, "", 1 - tint, margin_to(1 - tint, {least}), margin_words({least}, ""),
+         EffectBounds{.polarisation = Bound::none(alike),
+                      .dispersion = Bound::none(alike),
+                      .absorption = {tint * lost, fmt::format("twice through the wall, exp(-{:g} per mm x {:g} mm)",
+                                                              settings.absorption_per_mm, 2 * orb.optics.wall_mm)},
+                      .birefringence = Bound::none(alike),
+                      .light_size = lit.light_size,
+                      .caustics = lit.caustics,
+                      .interreflection = lit.interreflection,
+                      .pupil = Bound::none("the card is alike all over and the tint the same in every direction")}});
+    return numbers;
+}
+
 } // namespace
 
 Claim claim_tint() {
@@ -251,6 +347,7 @@ Claim claim_tint() {
         const auto flip = flip_of(context);
         return flip ? std::vector{*flip} : std::vector<FlipPoint>{};
     };
+    claim.scope = scope;
     claim.mutant = Fault::inner_surface_missing;
     return claim;
 }

@@ -13,7 +13,9 @@
 #include "verifier/claims/flip.h"
 #include "verifier/claims/fold_experiment.h"
 #include "verifier/claims/fold_numbers.h"
+#include "verifier/claims/fold_scope.h"
 #include "verifier/claims/orb_marks.h"
+#include "verifier/claims/scope_bounds.h"
 #include "verifier/measure/edges.h"
 
 namespace threefold {
@@ -162,6 +164,24 @@ Experiment own_wall(const ClaimContext &context, const Limits &limits) {
     return fold_experiment(context, plan);
 }
 
+std::vector<ScopeNumber> scope(const ClaimContext &context, const ScopeSettings &settings) {
+    const FoldNumbers n = fold_numbers(context, {});
+    ScopeNumber of_break =
+        break_scope(context, settings, "break of the fold that breaks most", {}, {most_broken_fold(n, all_folds)});
+    const double rim = rim_arcmin(n.orb, n.eye_mm);
+    const IndexBounds index = by_index(n.orb.index, settings, [&](double i) {
+        return rim_arcmin(optics::shell(n.orb.outer_mm, n.orb.wall_mm, i), n.eye_mm);
+    });
+    EffectBounds of_rim = of_break.bounds; // also nothing that is lit
+    of_rim.dispersion = index.dispersion;
+    of_rim.birefringence = index.birefringence;
+    of_rim.pupil = by_pupil(settings, [&](Vec2 aside) {
+        return rim_arcmin(n.orb, std::sqrt(n.eye_mm * n.eye_mm + aside.x * aside.x + aside.y * aside.y));
+    });
+    return {of_break, ScopeNumber{"width of the dark rim as the eye sees it", "arcmin", rim,
+                                  margin_to(rim, {n.acuity_arcmin}), margin_words({n.acuity_arcmin}, "arcmin"), of_rim}};
+}
+
 } // namespace
 
 Claim claim_wall_limit() {
@@ -255,6 +275,7 @@ Claim claim_wall_limit() {
         add(l.by_rim_mm, !l.break_binds(), "the dark rim", "wall-limit-rim-flip");
         return flips;
     };
+    claim.scope = scope;
     claim.mutant = Fault::wall_doubled;
     return claim;
 }

@@ -4,6 +4,7 @@
 // orders. The rear surfaces make two more, far away on the other side, whose places are in the notes.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 
@@ -16,6 +17,7 @@
 #include "verifier/claims/flip.h"
 #include "verifier/claims/orb_light.h"
 #include "verifier/claims/orb_marks.h"
+#include "verifier/claims/scope_bounds.h"
 #include "verifier/measure/highlight.h"
 
 namespace threefold {
@@ -24,6 +26,7 @@ namespace {
 
 constexpr double least_separation_px = 10; ///< between the two highlights on the film
 constexpr double size_share = 0.12;        ///< a highlight's half width, of that separation
+constexpr double light_tolerance = 0.08;   ///< of a highlight's light: by Fresnel the two differ by far more
 constexpr int margin_px = 6;
 
 struct Spot {
@@ -206,7 +209,7 @@ Experiment spot_experiment(const ClaimContext &context, int number) {
             std::vector<BudgetItem> budget{
                 {"tessellation", light ? 0 : 4 * a.surface_mm, "of the mirroring spheres"},
                 {"quantisation", light ? 400 * a.radiance_step : 0.02 * v.pixel_mm, "of the stored picture"}};
-            budget.push_back(light ? BudgetItem{"resolution", 0.08 * r.value,
+            budget.push_back(light ? BudgetItem{"resolution", light_tolerance * r.value,
                                                 "8 % of its light: by Fresnel the "
                                                 "highlights differ by far more"}
                                    : BudgetItem{"resolution", 0.25 * v.pixel_mm, "a quarter of a pixel"});
@@ -264,6 +267,96 @@ Experiment flip_experiment(const ClaimContext &context, const BracketSide &side,
     };
     draw_highlights(v);
     return v.experiment;
+}
+
+/// A highlight by the closed form: where it is seen on the orb, and its share of the source's radiance.
+struct Mirrored {
+    Vec3 at_mm;
+    double weight;
+};
+
+/// `legs`: glass legs of its order, 0 for the front surface, 2 for the inner one.
+Mirrored mirrored(const Spot &spot, int legs, const LightModel &model = {}) {
+    const auto ray = ray_to_source(spot, legs, 0);
+    if (ray)
+        for (const ExitRay &exit : exit_rays(spot.orb, *ray, 1e-4, model))
+            if (exit.glass_legs == legs && exit.hollow_chords == 0) return {on_surface(spot.orb, *ray), exit.weight};
+    return {Vec3(std::numeric_limits<double>::quiet_NaN()), std::numeric_limits<double>::quiet_NaN()};
+}
+
+Spot with_index(Spot spot, double index) {
+    spot.orb.optics.index = index;
+    return spot;
+}
+
+Spot from_beside(Spot spot, Vec2 aside_mm) {
+    spot.plan.scene = seen_from_beside(spot.plan.scene, aside_mm);
+    return spot;
+}
+
+/// The source moved on its own card.
+Spot source_moved(Spot spot, Vec2 by_mm) {
+    for (Object &object : spot.plan.scene.objects)
+        if (Quad *card = std::get_if<Quad>(&object.shape))
+            card->centre_mm += by_mm.x * glm::normalize(card->half_u_mm) + by_mm.y * glm::normalize(card->half_v_mm);
+    return spot;
+}
+
+/// How each effect moves one number of a spot. The same plane of incidence holds all of a highlight's way.
+EffectBounds highlight_bounds(const Spot &spot, const ScopeSettings &settings, double source_mm, bool of_light,
+                              const std::function<double(const Spot &, const LightModel &)> &number) {
+    const auto by_model = [&](const LightModel &model) { return number(spot, model); };
+    const IndexBounds index = by_index(spot.orb.optics.index, settings,
+                                       [&](double n) { return number(with_index(spot, n), {}); });
+    const Bound polarisation = of_light ? by_polarisation(by_model) : directions_know_no_polarisation();
+    const Bound birefringence =
+        of_light ? with_exchange(index.birefringence, settings, 2 * spot.orb.optics.wall_mm, polarisation.value)
+                 : index.birefringence;
+    const LitBounds lit = nothing_is_lit(spot.plan.scene);
+    return {.polarisation = polarisation,
+            .dispersion = index.dispersion,
+            .absorption = of_light ? by_absorption(settings, by_model) : directions_know_no_absorption(),
+            .birefringence = birefringence,
+            .light_size = over_disc(source_mm, fmt::format("source of {:g} degrees,", settings.light_deg),
+                                    [&](Vec2 by) { return number(source_moved(spot, by), {}); }),
+            .caustics = lit.caustics,
+            .interreflection = lit.interreflection,
+            .pupil = by_pupil(settings, [&](Vec2 aside) { return number(from_beside(spot, aside), {}); })};
+}
+
+std::vector<ScopeNumber> scope(const ClaimContext &context, const ScopeSettings &settings) {
+    std::vector<ScopeNumber> numbers;
+    for (int number = 1; number <= spot_count; ++number) {
+        const View v = look_at(context, "", "", number, {});
+        const Spot &spot = v.spot;
+        const double least = spot.parameters.number("criterion.spot_mm");
+        const double source_mm = 2 * spot.parameters.number("source.distance_mm") *
+                                 std::tan(settings.light_deg / 2 * std::numbers::pi / 180);
+        const auto distance = [&](const Spot &s, const LightModel &) {
+            return glm::length(mirrored(s, 0).at_mm - v.painted_mm);
+        };
+        const auto apart = [](const Spot &s, const LightModel &) {
+            return glm::length(mirrored(s, 2).at_mm - mirrored(s, 0).at_mm);
+        };
+        const auto light = [](int legs) {
+            return [legs](const Spot &s, const LightModel &model) { return mirrored(s, legs, model).weight; };
+        };
+        const double off = distance(spot, {}), between = apart(spot, {});
+        const auto add = [&](const std::string &what, const std::string &unit, double value, double margin,
+                             const std::string &margin_is, bool of_light, const auto &f) {
+            numbers.push_back({fmt::format("spot {}: {}", number, what), unit, value, margin, margin_is,
+                               highlight_bounds(spot, settings, source_mm, of_light, f)});
+        };
+        add("distance of the front highlight from the painted spot", "mm", off, margin_to(off, {least}),
+            margin_words({least}, "mm"), false, distance);
+        add("distance between both highlights", "mm", between, 0.5 * v.pixel_mm, margin_is_tolerance, false, apart);
+        for (const int legs : {0, 2}) {
+            const double weight = mirrored(spot, legs).weight;
+            add(fmt::format("light of the {} highlight over its source's", legs == 0 ? "front" : "inner"), "", weight,
+                light_tolerance * weight, margin_is_tolerance, true, light(legs));
+        }
+    }
+    return numbers;
 }
 
 } // namespace
@@ -325,6 +418,7 @@ Claim claim_white_spots() {
         const auto flip = flip_of(context);
         return flip ? std::vector{*flip} : std::vector<FlipPoint>{};
     };
+    claim.scope = scope;
     claim.mutant = Fault::camera_one_pixel;
     return claim;
 }

@@ -11,6 +11,7 @@
 
 #include "verifier/claims/flip.h"
 #include "verifier/claims/fold_experiment.h"
+#include "verifier/claims/scope_bounds.h"
 
 namespace threefold {
 
@@ -61,9 +62,9 @@ Experiment fold_setup(const ClaimContext &context, const std::string &name, cons
     return context.experiment(name, title, "folds", defaults, joined(flat, {assign("card.half_width_mm", half)}));
 }
 
-FoldNumbers fold_numbers(const ClaimContext &context, const std::vector<Assignment> &fixed) {
+FoldNumbers fold_numbers(const ClaimContext &context, const std::vector<Assignment> &fixed, Vec2 eye_aside_mm) {
     const Experiment e = fold_setup(context, "", "", {}, fixed);
-    const FoldScene scene = fold_scene_of(e.scene);
+    const FoldScene scene = fold_scene_of(seen_from_beside(e.scene, eye_aside_mm));
     FoldNumbers n;
     n.acuity_arcmin = number_in(e, "criterion.acuity_arcmin");
     n.circle_share = number_in(e, "criterion.circle_share");

@@ -41,7 +41,9 @@ struct FoldNumbers {
     std::map<std::string, std::string> parameters; ///< of the scene
 };
 
-FoldNumbers fold_numbers(const ClaimContext &context, const std::vector<Assignment> &fixed);
+/// `eye_aside_mm`: as a pinhole sees it that stands so far to image right and up of the eye.
+FoldNumbers fold_numbers(const ClaimContext &context, const std::vector<Assignment> &fixed,
+                         Vec2 eye_aside_mm = Vec2(0));
 
 /// Greatest absolute jump among the folds; NaN when one of them is not seen.
 double greatest_jump_mm(const FoldNumbers &numbers, const std::vector<std::size_t> &folds);

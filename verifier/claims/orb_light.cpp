@@ -39,16 +39,19 @@ Ray turned_about_orb(const OrbInScene &orb, const Ray &ray, double turn_rad) {
     return {orb.centre_mm + new_foot + optics::outer_chords(orb.optics, impact).air_mm * direction, direction};
 }
 
-std::vector<ExitRay> exit_rays(const OrbInScene &orb, const Ray &ray, double remaining_weight) {
+std::vector<ExitRay> exit_rays(const OrbInScene &orb, const Ray &ray, double remaining_weight,
+                               const LightModel &model) {
     const double b = impact_parameter(ray, orb.centre_mm);
     if (b >= orb.optics.outer_mm) return {{ray, 1, 0, 0}};
-    const auto sum =
-        optics::transmitted_orders(orb.optics, optics::impact_at(orb.optics, b), remaining_weight,
-                                   optics::Polarisation::unpolarised, orb.glass.interface_transmittance, 100'000);
+    const auto impact = optics::impact_at(orb.optics, b);
+    const auto sum = optics::transmitted_orders(orb.optics, impact, remaining_weight, model.polarisation,
+                                                orb.glass.interface_transmittance, 100'000);
+    const double leg_loss = model.absorption_per_mm * optics::glass_leg_mm(orb.optics, impact);
     std::vector<ExitRay> exits;
     exits.reserve(sum.orders.size());
     for (const optics::Order &o : sum.orders)
-        exits.push_back({turned_about_orb(orb, ray, o.deflection_rad), o.weight, o.glass_legs, o.hollow_chords});
+        exits.push_back({turned_about_orb(orb, ray, o.deflection_rad), o.weight * std::exp(-leg_loss * o.glass_legs),
+                         o.glass_legs, o.hollow_chords});
     return exits;
 }
 
@@ -68,9 +71,9 @@ double radiance_outside(const Scene &scene, const Ray &ray) {
     return radiance;
 }
 
-double predicted_radiance(const Scene &scene, const OrbInScene &orb, const Ray &ray) {
+double predicted_radiance(const Scene &scene, const OrbInScene &orb, const Ray &ray, const LightModel &model) {
     double sum = 0;
-    for (const ExitRay &exit : exit_rays(orb, ray)) sum += exit.weight * radiance_outside(scene, exit.ray);
+    for (const ExitRay &exit : exit_rays(orb, ray, 1e-7, model)) sum += exit.weight * radiance_outside(scene, exit.ray);
     return sum;
 }
 

@@ -16,8 +16,15 @@ struct ExitRay {
     int glass_legs, hollow_chords; ///< as in optics::Order; 0 and 0: reflected outside, or no orb in the way
 };
 
-/// All of them, up to `remaining_weight` of the light; the tint of the glass is in the weights.
-std::vector<ExitRay> exit_rays(const OrbInScene &orb, const Ray &ray, double remaining_weight = 1e-7);
+/// What of light a prediction follows. As it stands: what renderers do.
+struct LightModel {
+    optics::Polarisation polarisation = optics::Polarisation::unpolarised;
+    double absorption_per_mm = 0; ///< natural logarithm
+};
+
+/// All of them, up to `remaining_weight` of the light; the tint of the glass and what it absorbs are in the weights.
+std::vector<ExitRay> exit_rays(const OrbInScene &orb, const Ray &ray, double remaining_weight = 1e-7,
+                               const LightModel &model = {});
 
 /// The ray turned about the orb's centre, from where it leaves the orb. `turn_rad` is positive towards the axis.
 Ray turned_about_orb(const OrbInScene &orb, const Ray &ray, double turn_rad);
@@ -26,6 +33,6 @@ Ray turned_about_orb(const OrbInScene &orb, const Ray &ray, double turn_rad);
 double radiance_outside(const Scene &scene, const Ray &ray);
 
 /// Mean over all orders.
-double predicted_radiance(const Scene &scene, const OrbInScene &orb, const Ray &ray);
+double predicted_radiance(const Scene &scene, const OrbInScene &orb, const Ray &ray, const LightModel &model = {});
 
 } // namespace threefold

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 // All closed forms of a glass ball or concentric shell in air. Lengths in millimetres, angles in radians; templates
-// over double and Quad. Absorption, dispersion and interference are left out; polarisation is in fresnel.h.
+// over double and Quad. Interference is left out; polarisation is in fresnel.h.
 #pragma once
 
+#include "verifier/optics/absorption.h"
+#include "verifier/optics/birefringence.h"
 #include "verifier/optics/deflection.h"
+#include "verifier/optics/dispersion.h"
 #include "verifier/optics/fresnel.h"
 #include "verifier/optics/landing.h"
 #include "verifier/optics/orb.h"
@@ -11,3 +14,4 @@
 #include "verifier/optics/paraxial.h"
 #include "verifier/optics/quad.h"
 #include "verifier/optics/transmitted_ray.h"
+#include "verifier/optics/uniaxial.h"

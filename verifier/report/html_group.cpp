@@ -38,6 +38,15 @@ void add_notes(Out &out, const std::vector<std::string> &notes) {
     out += "</ul>\n";
 }
 
+void add_scope(Out &out, const std::vector<ScopeFinding> &findings) {
+    if (findings.empty()) return;
+    out += "<div class=\"scope\"><p><b>Within its model only.</b> What the model leaves out (<code>threefold "
+           "scope</code>):</p><ul class=\"notes\">";
+    for (const ScopeFinding &finding : findings)
+        fmt::format_to(std::back_inserter(out), "<li>{}</li>", html_text(one_line(finding.sentence)));
+    out += "</ul></div>\n";
+}
+
 /// "The numbers: 24 rows and 3 comparisons of pictures, all hold".
 std::string what_is_folded(const ClaimResult &claim) {
     std::string text;
@@ -70,6 +79,7 @@ void add_single(Out &out, const RunResult &result, const ClaimResult &claim, boo
     add_summary(out, claim.summary);
     add_blamed(out, result, claim);
     add_flips(out, claim);
+    add_scope(out, claim.scope);
     add_notes(out, claim.notes);
     out += "</header>\n";
     add_evidence(out, result, claim, {3, folds, true});
@@ -96,6 +106,7 @@ void add_parts(Out &out, const RunResult &result, const ClaimGroup &group, bool 
         if (!one_summary) add_summary(out, part->summary);
         add_blamed(out, result, *part);
         add_flips(out, *part);
+        add_scope(out, part->scope);
         std::vector<std::string> own;
         for (const std::string &note : part->notes)
             if (std::ranges::count(common, note) == 0) own.push_back(note);

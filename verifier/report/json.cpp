@@ -146,6 +146,12 @@ Json from_flip(const FlipPoint &f) {
             {"here", real(f.here)},           {"meaning", text(f.meaning)}, {"bracket", strings(f.bracket)}};
 }
 
+Json from_scope(const ScopeFinding &f) {
+    return {{"effect", text(f.effect)}, {"quantity", text(f.quantity)}, {"unit", text(f.unit)},
+            {"value", real(f.value)},   {"bound", real(f.bound)},       {"margin", real(f.margin)},
+            {"sentence", text(f.sentence)}};
+}
+
 Json from_claim(const ClaimResult &claim) {
     return {
         {"name", text(claim.name)},
@@ -155,6 +161,7 @@ Json from_claim(const ClaimResult &claim) {
         {"summary", text(claim.summary)},
         {"notes", strings(claim.notes)},
         {"flips", list_of(claim.flips, from_flip)},
+        {"scope", list_of(claim.scope, from_scope)},
         {"blamed", strings(claim.blamed)},
         {"experiments", list_of(claim.experiments, from_experiment)},
         {"rows", list_of(claim.rows, from_row)},

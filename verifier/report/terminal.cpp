@@ -85,6 +85,8 @@ void add_findings(std::string &out, const RunResult &result, const ClaimResult &
                      fmt::format("pictures tile by tile, {}: {} against {}", experiment_title(claim, tiles.experiment),
                                  title_of(result, tiles.witness), title_of(result, tiles.versus)),
                      sentence(tiles), what_would_decide(tiles.verdict, tiles.replicates_to_decide));
+    for (const ScopeFinding &finding : claim.scope)
+        out += indent + paint.verdict(Verdict::undecided, "within its model: ") + one_line(finding.sentence) + "\n";
     if (claim.verdict != Verdict::holds && !claim.summary.empty()) out += indent + one_line(claim.summary) + "\n";
     if (verbosity > 0)
         for (const std::string &note : claim.notes) out += indent + one_line(note) + "\n";

@@ -34,6 +34,7 @@ Claim as_studied(const Claim &claim, const ClaimContext &context, bool without_f
     studied.summary = nullptr; // read by nobody
     studied.notes = nullptr;
     studied.flips = nullptr;
+    studied.scope = nullptr;
     return studied;
 }
 
