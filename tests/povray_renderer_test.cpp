@@ -17,6 +17,7 @@
 
 #include "exporter/run.h"
 #include "scenes/camera.h"
+#include "scenes/light.h"
 #include "scenes/error.h"
 
 using namespace threefold;
@@ -458,6 +459,40 @@ TEST_F(PovRay, casts_the_shadow_that_the_rule_says_and_never_shows_its_proxy) {
         EXPECT_GT(through_glass, 50);
         EXPECT_LE(worst, step() + 2e-6);
     }
+}
+
+TEST_F(PovRay, casts_the_shadow_of_a_dome_as_of_other_lights) {
+    Quad quad = card;
+    quad.surface = Diffuse{Rgb(1)};
+    Scene scene = scene_of({GlassBall{.glass = {.coating = Coating::antireflective}}, quad}, 32, 16);
+    scene.camera.horizontal_fov_deg = 20;
+    scene.environment = Environment{Rgb(0.5), 24};
+    scene.glass_shadow = {GlassShadow::Rule::opaque, 1};
+    const Image image = render(at_pixel_centres(scene)).front();
+    double worst = 0;
+    int in_shadow = 0;
+    for_each_sample(scene.camera, [&](int row, int column, const Ray &straight) {
+        const auto uv = uv_of_landing(straight, quad);
+        if (!uv || impact_mm(straight) < 69) return;
+        const Vec3 at(300 * (uv->x - 0.5), 300 * (uv->y - 0.5), -200);
+        double expected = 0, nearest_edge = 1e9;
+        bool shadowed = false;
+        for (const Directional &light : dome(*scene.environment)) {
+            const Vec3 travel = glm::normalize(light.travel);
+            if (travel.z >= 0) continue; // from behind the card
+            const double b = glm::length(glm::cross(at, travel));
+            nearest_edge = std::min(nearest_edge, std::abs(b - 68));
+            if (b < 68 && glm::dot(at, travel) > 0)
+                shadowed = true;
+            else
+                expected += light.irradiance.r * -travel.z / std::numbers::pi;
+        }
+        if (nearest_edge < 1e-3) return;
+        in_shadow += shadowed;
+        worst = std::max(worst, std::abs(image.at(column, row).r - expected));
+    });
+    EXPECT_GT(in_shadow, 50);
+    EXPECT_LE(worst, 2 * step() + 4e-6);
 }
 
 // ---------------------------------------------------------------------------------------------------------------------

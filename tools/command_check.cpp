@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "exporter/export/delivery.h"
 #include "exporter/files.h"
 #include "exporter/mitsuba/pictures.h"
 #include "tools/commands.h"
@@ -91,6 +92,7 @@ Assignment parse_elsewhere(std::string_view option, const std::string &text) {
 
 /// Scenes of all experiments that can be said, and the script that renders them; lists the pictures on stdout.
 Exit export_jobs(const CheckRequest &request, const std::filesystem::path &folder) {
+    require_fresh_folder(folder); // before the work, not after it
     std::vector<MitsubaJob> jobs;
     std::size_t refused = 0;
     for (const PlannedJob &planned : planned_jobs(request)) {
@@ -102,13 +104,14 @@ Exit export_jobs(const CheckRequest &request, const std::filesystem::path &folde
             say(fmt::format("left out: {} of {}: {}", planned.label, planned.claim, error.what()));
         }
     }
-    make_folder(folder);
-    for (const MitsubaJob &job : jobs) {
-        for (const ExportedFile &file : job.files) write_file_atomically(folder / file.name, file.bytes);
+    std::vector<ExportedFile> files{{"render.sh", render_script(jobs)}};
+    for (const MitsubaJob &job : jobs)
+        for (const ExportedFile &file : job.files) // named by their content: claims share scenes and textures
+            if (std::ranges::count(files, file.name, &ExportedFile::name) == 0) files.push_back(file);
+    write_fresh_folder(folder, files);
+    for (const MitsubaJob &job : jobs)
         for (const std::string &picture : job.pictures)
             fmt::print("{}  {} x {} px\n", picture, job.width_px, job.height_px);
-    }
-    write_file_atomically(folder / "render.sh", render_script(jobs));
     say(fmt::format("wrote {} scenes to {} ({} left out); sh {} renders them; then check --image mitsuba={}",
                     jobs.size(), folder.string(), refused, shell_quoted((folder / "render.sh").string()),
                     shell_quoted(folder.string())));

@@ -5,7 +5,7 @@ _threefold() {
     # The indented first words under a heading of `threefold list`.
     _threefold_names() { threefold list 2> /dev/null | awk -v heading="$1" '/^[A-Z]/ { on = $1 == heading } on && /^  / { print $1 }'; }
     if [ "$COMP_CWORD" -eq 1 ]; then
-        words="list show doctor export render check gallery power compare optics --help --version"
+        words="$(threefold --help 2> /dev/null | awk '/^[A-Z]/ { on = /^Subcommands/ } on && /^  [a-z]/ { print $1 }') --help --version"
     else
         case $before in
         --with) words="tracer povray cycles" ;;

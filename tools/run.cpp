@@ -353,8 +353,8 @@ int run(int argc, char **argv, const std::vector<SceneRecipe> &scenes, const std
                     "the same claims, options and seed")
         ->allow_extra_args(false);
     check.add_option("--export", check_command.export_to,
-                     "Only write, mitsuba=FOLDER: each experiment's scene as Mitsuba 3 XML and a script that renders "
-                     "them; what Mitsuba cannot say is left out and told");
+                     "Only write, mitsuba=FOLDER (new, or empty): each experiment's scene as Mitsuba 3 XML and a "
+                     "script that renders them; what Mitsuba cannot say is left out and told");
     check.add_flag("--dry-run", check_command.dry_run, "Say what would be rendered");
     add_common(check);
 

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "scenes/validate.h"
+
 namespace threefold::povray {
 namespace {
 
@@ -50,7 +52,7 @@ void write_shadow(Writer &writer, const Vec3 &centre, double radius) {
         return 1.0;
     };
     const double transmittance = straight_transmittance(writer.job.scene.glass_shadow);
-    if (transmittance == 1 || writer.job.scene.lights.empty()) return;
+    if (transmittance == 1 || !needs(writer.job.scene).glass_shadow) return;
     writer.text += fmt::format("sphere {{\n  {}, {}\n  pigment {{ rgbt <0,0,0,{}> }}\n"
                                "  finish {{ ambient 0 emission 0 diffuse 0 specular 0 }}\n"
                                "  no_image no_reflection\n}}\n",
