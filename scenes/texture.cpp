@@ -43,7 +43,8 @@ Rgb greatest_value(const Paint &paint) {
                                   for (std::size_t k = 0; k < side_by_side; ++k)
                                       most[k] = rgb[i + k] > most[k] ? rgb[i + k] : most[k];
                               for (std::size_t i = whole; i < n; ++i) most[i % 3] = std::max(most[i % 3], rgb[i]);
-                              for (std::size_t k = 3; k < side_by_side; ++k) most[k % 3] = std::max(most[k % 3], most[k]);
+                              for (std::size_t k = 3; k < side_by_side; ++k)
+                                  most[k % 3] = std::max(most[k % 3], most[k]);
                               return Rgb(most[0], most[1], most[2]) / 65535.0;
                           },
                       },

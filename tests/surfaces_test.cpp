@@ -196,7 +196,8 @@ TEST(Sights, AreWhatTheTexturesSayAtAnyPointOfAnySize) {
         scene.objects = {{"a", Quad{{}, {1, 0, 0}, {0, 1, 0}, Emissive{texture}}},
                          {"b", Quad{{}, {1, 0, 0}, {0, 1, 0}, CoordinateCard{}}}};
         const Paints paints(scene);
-        const std::vector<Sight> sights{{Sight::Kind::constant, Rgb(0.1, 0.2, 0.3)}, *paints.sight(0), *paints.sight(1)};
+        const std::vector<Sight> sights{
+            {Sight::Kind::constant, Rgb(0.1, 0.2, 0.3)}, *paints.sight(0), *paints.sight(1)};
         for (int round = 0; round < 200; ++round) {
             RectangleHits hits;
             Lanes weight;
@@ -208,26 +209,32 @@ TEST(Sights, AreWhatTheTexturesSayAtAnyPointOfAnySize) {
                 weight[l] = unit(random);
             }
             const std::uint32_t asked = static_cast<std::uint32_t>(random()) & all_lanes;
-            Glance seen;
-            Rgb sum(0), expected(0);
-            glance(sights, hits, weight, 2, asked, seen, sum);
-            read(seen, sum);
+            Glance on_the_way;
+            Seen seen;
+            glance(sights, hits, weight, 2, asked, on_the_way, seen);
+            read(on_the_way, seen);
+            Rgb expected(0);
             for (int l = 0; l < lanes; ++l) {
-                if (!(asked >> l & 1u)) continue;
+                if (!(asked >> l & 1u)) {
+                    EXPECT_EQ(seen.at(l), Rgb(0));
+                    continue;
+                }
                 const Vec2 uv(hits.u[l], hits.v[l]);
                 const Rgb colour = l % 3 == 0 ? Rgb(0.1, 0.2, 0.3) : l % 3 == 1 ? sample(*texture, uv) : Rgb(uv, 1);
                 expected += 2 * weight[l] * colour;
+                EXPECT_LT(glm::length(seen.at(l) - 2 * weight[l] * colour), 1e-14);
             }
-            EXPECT_LT(glm::length(sum - expected), 1e-13);
+            EXPECT_LT(glm::length(seen.sum() - expected), 1e-13);
         }
     }
 }
 
 TEST(Sights, AreNoneForATextureOfOneTexelWhichIsSeenAllTheSame) {
     Scene scene;
-    scene.objects = {{"card",
-                      Quad{{0, 0, -10}, {500, 0, 0}, {0, 500, 0},
-                           Emissive{std::make_shared<Texture>(Texture{1, 1, {65535, 0, 13107}})}}}};
+    scene.objects = {{"card", Quad{{0, 0, -10},
+                                   {500, 0, 0},
+                                   {0, 500, 0},
+                                   Emissive{std::make_shared<Texture>(Texture{1, 1, {65535, 0, 13107}})}}}};
     EXPECT_FALSE(Paints(scene).sight(0));
     scene.camera.width_px = scene.camera.height_px = 4;
     RenderJob job;

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "scenes/camera.h"
 #include "scenes/catalogue/catalogue.h"
 #include "scenes/error.h"
 #include "scenes/validate.h"
@@ -302,6 +303,33 @@ RC_GTEST_PROP(TracerProperty, APictureStaysWhenTheWholeSceneIsScaled, ()) {
     const Image a = trace(job_of(s, Sampling::pixel_centres)).images.front();
     const Image b = trace(job_of(t, Sampling::pixel_centres)).images.front();
     for (std::size_t i = 0; i < a.pixels.size(); ++i) RC_ASSERT(glm::length(a.pixels[i] - b.pixels[i]) < 1e-11);
+}
+
+/// A scene of rectangles that shine goes by packets gathered from many pixels; with one more that does not, too
+/// small to be hit, every pixel goes alone.
+TEST(Tracer, SeesTheSameByGatheredPacketsAsByThePixelsOwn) {
+    for (const char *wall : {"1.36", "20", "0.001"}) {
+        RenderJob job =
+            job_of(scene("hollow", {{"card.surface", "textured"}, {"orb.wall_mm", wall}}), Sampling::box, 16);
+        job.cut_weight = 1e-9;
+        if (job.scene.environment) job.scene.environment->dome_directions = 8; // for the one that does not shine
+        Camera &camera = job.scene.camera;
+        camera.width_px = camera.height_px = 37;
+        const Image plain = trace(job).images[0];
+        job.scene.objects.push_back(
+            {"speck", Quad{camera.eye_mm + Vec3(0, 0, 1e4), {1e-6, 0, 0}, {0, 1e-6, 0}, Diffuse{Rgb(0.5)}}});
+        const Image general = trace(job).images[0];
+        const Film film(camera);
+        int compared = 0;
+        for (int row = 0; row < 37; ++row)
+            for (int column = 0; column < 37; ++column) {
+                const Ray ray = film.ray(Vec2(column + 0.5, row + 0.5));
+                if (glm::length(glm::cross(ray.direction, -ray.origin_mm)) > 67) continue; // beside: more samples
+                ++compared;
+                EXPECT_LT(glm::length(plain.at(column, row) - general.at(column, row)), 1e-8) << column << ' ' << row;
+            }
+        EXPECT_GT(compared, 500);
+    }
 }
 
 } // namespace

@@ -61,8 +61,7 @@ struct Prepared {
         PixelScratch<double> scratch;
         scratch.log = log;
         const PixelRenderer<double> pixel(world, job, job.replicates[0]);
-        for (int tile = 0; tile < tiles_of(camera); ++tile)
-            render_tile(pixel, camera, tile, scratch, pixels, missing);
+        for (int tile = 0; tile < tiles_of(camera); ++tile) render_tile(pixel, camera, tile, scratch, pixels, missing);
         return pixels;
     }
 };
@@ -281,8 +280,7 @@ void mesh_of(benchmark::State &state) {
     const auto n = static_cast<double>(state.iterations());
     state.counters["render_ms"] = 1e3 * (all - set_up) / n;
     state.counters["set_up_ms"] = 1e3 * set_up / n;
-    state.counters["triangles"] =
-        static_cast<double>(std::get<Mesh>(job.scene.objects[1].shape).triangles.size());
+    state.counters["triangles"] = static_cast<double>(std::get<Mesh>(job.scene.objects[1].shape).triangles.size());
 }
 BENCHMARK(mesh_of)->Unit(benchmark::kMillisecond)->Arg(1000)->Arg(10000)->Arg(100000)->Arg(1000000);
 

@@ -2,8 +2,8 @@
 // Error against CPU seconds of our tracer on a scene file of Mitsuba's, setting by setting:
 //   threefold_referee SCENE.xml [SIZE_PX [REFERENCE.exr]]
 // The error is the root mean square over all pixels and channels, against the reference picture if one is given and
-// otherwise against our own of many samples and another seed, whose error is told. One thread; the settings are taken in
-// turn five times and each one's median is told: set-up and rendering apart.
+// otherwise against our own of many samples and another seed, whose error is told. One thread; the settings are taken
+// in turn three times and each one's median is told: set-up and rendering apart.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -84,7 +84,7 @@ Image reference_of(const Scene &scene, const char *file) {
             throw Error(Exit::bad_data, fmt::format("{} is not of the size of the picture", file));
         return image;
     }
-    constexpr int samples = 1024;
+    constexpr int samples = 256;
     const Image one = render(scene, samples, 1e-4, 1001, {}, 0).images[0];
     const Image two = render(scene, samples, 1e-4, 1002, {}, 0).images[0];
     Image mean = one;
@@ -101,7 +101,7 @@ void run(const char *file, int size_px, const char *reference_file) {
     validate(scene);
     const Image reference = reference_of(scene, reference_file);
     std::array<std::vector<double>, settings.size()> errors, seconds, set_up;
-    constexpr int turns = 5;
+    constexpr int turns = 3;
     for (int turn = 0; turn < turns; ++turn)
         for (std::size_t i = 0; i < settings.size(); ++i) {
             const Setting &s = settings[i];

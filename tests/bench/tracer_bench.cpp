@@ -287,8 +287,8 @@ BENCHMARK(embree_packet<RTCRayHit8, 8, rtcIntersect8>)->Name("embree_eight_at_on
 BENCHMARK(embree_packet<RTCRayHit16, 16, rtcIntersect16>)->Name("embree_sixteen_at_once");
 #endif
 
-/// Items are samples; linear in pixels and samples if the rate stays. Pixels beside the orb take four times the samples:
-/// their number, like the others', is in proportion to the pixels, so the items need not know.
+/// Items are samples; linear in pixels and samples if the rate stays. Pixels beside the orb take four times the
+/// samples: their number, like the others', is in proportion to the pixels, so the items need not know.
 void whole_picture(benchmark::State &state) {
     RenderJob job;
     job.scene = scene_of(1.36, static_cast<int>(state.range(0)));

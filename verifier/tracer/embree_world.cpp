@@ -38,8 +38,8 @@ void put(float *to, Vec3 v) {
     for (int k = 0; k < 3; ++k) to[k] = static_cast<float>(v[k]);
 }
 
-// Embree 4 renamed the context and put it among optional arguments. Rays are never called coherent: Embree 3 then follows
-// their common frustum, which took 1.7 times as long even for rays from one pixel or towards one light.
+// Embree 4 renamed the context and put it among optional arguments. Rays are never called coherent: Embree 3 then
+// follows their common frustum, which took 1.7 times as long even for rays from one pixel or towards one light.
 #if RTC_VERSION_MAJOR >= 4
 using Context = RTCRayQueryContext;
 #else
@@ -221,9 +221,8 @@ void EmbreeWorld::intersect(const RayPacket &rays, std::uint32_t active, const L
     put(rays, state_->origin, r.ray);
     // What lies about as far as the limit is compared in double precision.
     for (int l = 0; l < lanes; ++l)
-        r.ray.tfar[l] =
-            static_cast<float>(limit.v[l]) * 1.0001f +
-            1e-5f * (std::abs(r.ray.org_x[l]) + std::abs(r.ray.org_y[l]) + std::abs(r.ray.org_z[l]));
+        r.ray.tfar[l] = static_cast<float>(limit.v[l]) * 1.0001f +
+                        1e-5f * (std::abs(r.ray.org_x[l]) + std::abs(r.ray.org_y[l]) + std::abs(r.ray.org_z[l]));
     for (unsigned &id : r.hit.geomID) id = RTC_INVALID_GEOMETRY_ID;
     for (unsigned &id : r.hit.instID[0]) id = RTC_INVALID_GEOMETRY_ID;
     const Valid valid(active);

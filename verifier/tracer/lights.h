@@ -42,8 +42,7 @@ public:
         all_.erase(doubled.begin(), doubled.end());
         for (std::size_t i = 0; i < all_.size(); ++i) all_[i].number = static_cast<std::uint32_t>(i);
         for (std::vector<Light> &share : shares_)
-            for (Light &light : share)
-                light.number = std::ranges::lower_bound(all_, key(light), {}, key)->number;
+            for (Light &light : share) light.number = std::ranges::lower_bound(all_, key(light), {}, key)->number;
     }
 
     /// For sample `k` of a pixel; `turn` differs between pixels.

@@ -331,7 +331,8 @@ void intersect(const Orb<double> &orb, const RayPacket &rays, EntryPacket &entry
 
 std::uint32_t same_way(const Orb<double> &orb, const EntryPacket &entry, std::uint32_t active) {
     std::uint32_t by_hollow = 0;
-    for (int l = 0; l < lanes; ++l) by_hollow |= static_cast<std::uint32_t>(inner_sine_of(orb, entry.impact[l]) < 1) << l;
+    for (int l = 0; l < lanes; ++l)
+        by_hollow |= static_cast<std::uint32_t>(inner_sine_of(orb, entry.impact[l]) < 1) << l;
     const std::uint32_t first = active & (~active + 1);
     return active & (by_hollow & first ? by_hollow : ~by_hollow);
 }

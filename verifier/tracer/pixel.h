@@ -4,6 +4,7 @@
 
 #include <bit>
 
+#include "verifier/tracer/gathered_rays.h"
 #include "verifier/tracer/packet.h"
 #include "verifier/tracer/shadow_rays.h"
 #include "verifier/tracer/world.h"
@@ -15,6 +16,7 @@ struct PixelScratch {
     typename World<Real>::Path path;
     PacketScratch packet;
     ShadowRays shadows;
+    GatheredRays gathered;
     SurfaceHit hits[lanes];
     std::vector<CastRays> *log = nullptr; ///< of the rays that ask for surfaces, for those who measure
 };
@@ -27,9 +29,10 @@ public:
         : world_(world), film_(job.scene.camera), camera_(job.scene.camera), replicate_(replicate), sampler_(sampler),
           samples_(job.sampling == Sampling::box ? job.samples_per_pixel : 1), box_(job.sampling == Sampling::box) {}
 
-    /// Adds to pixels[row * width + column], some of it only with `finish`. `missing`: weight of the branches that were
-    /// dropped, mean over the samples.
-    void operator()(int column, int row, PixelScratch<Real> &scratch, std::vector<Rgb> &pixels, double &missing) const {
+    /// Adds to pixels[row * width + column], some of it only with `finish`. `missing`, by pixel: weight of the branches
+    /// that were dropped, mean over the samples.
+    void operator()(int column, int row, PixelScratch<Real> &scratch, std::vector<Rgb> &pixels,
+                    std::vector<double> &missing) const {
         auto &path = scratch.path;
         PixelSampler sampler(replicate_.seed, column, row);
         path.sampler = &sampler;
@@ -51,7 +54,8 @@ public:
                 sampler.use(sampler_, samples);
                 for (int k = 0; k < samples; k += lanes) {
                     sum += packet(pixel, k, std::min(lanes, samples - k), scratch);
-                    if (scratch.shadows.size() > many_shadow_rays) finish(scratch, pixels);
+                    if (scratch.shadows.size() > many_shadow_rays || scratch.gathered.size() > many_gathered_rays)
+                        finish(scratch, pixels, missing);
                 }
             }
         }
@@ -61,21 +65,25 @@ public:
             const Ray ray = film_.ray(position(sampler, column, row, k));
             sum += world_.radiance({Vector<Real>(ray.origin_mm), Vector<Real>(ray.direction)}, 1, none, 0, path);
         }
-        missing = path.dropped / samples;
+        missing[pixel.number] += path.dropped / samples;
         pixels[pixel.number] += sum / static_cast<double>(samples);
     }
 
-    /// Adds what shadow rays were gathered for.
-    void finish(PixelScratch<Real> &scratch, std::vector<Rgb> &pixels) const {
-        if constexpr (std::is_same_v<Real, double>)
+    /// Adds the light of what was gathered.
+    void finish(PixelScratch<Real> &scratch, std::vector<Rgb> &pixels, std::vector<double> &missing) const {
+        if constexpr (std::is_same_v<Real, double>) {
+            if (scratch.gathered.size() > 0)
+                scratch.gathered.take([&](const GatheredRays::Packet &p) { trace(p, scratch, pixels, missing); });
             if (scratch.shadows.size() > 0)
                 scratch.shadows.cast(world_.surfaces(), world_.orbs(), world_.scene().glass_shadow,
                                      world_.lights().all(), pixels, scratch.log);
+        }
     }
 
 private:
     static constexpr int more_beside_glass = 4;
-    static constexpr std::size_t many_shadow_rays = 1 << 14; ///< they still fit a processor's cache
+    // So many still fit a processor's cache.
+    static constexpr std::size_t many_shadow_rays = 1 << 14, many_gathered_rays = 1 << 11;
 
     struct Pixel {
         int column, row;
@@ -135,9 +143,17 @@ private:
             }
             Lanes weight;
             for (double &w : weight.v) w = 1;
-            Glance seen;
-            glance(world_.sights(), hits, weight, 1, active & ~inside, seen, sum);
-            read(seen, sum);
+            if (active != inside) {
+                Glance on_the_way;
+                Seen seen;
+                glance(world_.sights(), hits, weight, 1, active & ~inside, on_the_way, seen);
+                read(on_the_way, seen);
+                sum += seen.sum();
+            }
+            if (inside && !(world_.end().roulette > 0) && GatheredRays::pays(world_.orbs()[0], entry, active, inside)) {
+                scratch.gathered.add(rays, entry, inside, pixel.number, pixel.share);
+                inside = 0;
+            }
             if (inside) sum += glass(0, rays, entry, inside, pixel, first, scratch);
             return sum;
         }
@@ -209,8 +225,13 @@ private:
             if (trace_packet(world_.orbs()[orb], rays, entry, group, cut, key, p)) {
                 for (std::uint32_t bits = group; bits; bits &= bits - 1)
                     path.dropped += p.dropped[std::countr_zero(bits)];
-                sum += world_.is_plain() ? leaving_for_rectangles(group, scratch)
-                                         : leaving(orb, group, pixel, first, scratch);
+                if (world_.is_plain()) {
+                    Seen seen;
+                    leaving_for_rectangles(group, scratch, seen);
+                    sum += seen.sum();
+                } else {
+                    sum += leaving(orb, group, pixel, first, scratch);
+                }
                 continue;
             }
             for (std::uint32_t bits = group; bits; bits &= bits - 1) {
@@ -237,21 +258,49 @@ private:
     }
 
     /// The light of all ways out of an orb, in a plain world: found one way ahead of what is seen there.
-    Rgb leaving_for_rectangles(std::uint32_t group, PixelScratch<double> &scratch) const {
+    void leaving_for_rectangles(std::uint32_t group, PixelScratch<double> &scratch, Seen &seen) const {
         const PacketScratch &p = scratch.packet;
         Glance glances[2];
-        Rgb sum(0);
         for (std::size_t i = 0; i < p.count; ++i) {
             const ExitPacket &out = p.exits[i];
             double factor = 1;
             const std::uint32_t asked = asked_of(out, group, factor, scratch);
             RectangleHits hits;
             meet_rectangles(world_.surfaces().rectangles(), out.origin, out.direction, hits);
-            glance(world_.sights(), hits, out.weight, factor, asked, glances[i % 2], sum);
-            if (i > 0) read(glances[(i - 1) % 2], sum);
+            glance(world_.sights(), hits, out.weight, factor, asked, glances[i % 2], seen);
+            if (i > 0) read(glances[(i - 1) % 2], seen);
         }
-        if (p.count > 0) read(glances[(p.count - 1) % 2], sum);
-        return sum;
+        if (p.count > 0) read(glances[(p.count - 1) % 2], seen);
+    }
+
+    /// Rays of several pixels into the only orb of a plain world, by the full tree.
+    void trace(const GatheredRays::Packet &gathered, PixelScratch<double> &scratch, std::vector<Rgb> &pixels,
+               std::vector<double> &missing) const {
+        const Orb<double> &orb = world_.orbs()[0];
+        auto &path = scratch.path;
+        const double dropped_by_others = path.dropped;
+        for (std::uint32_t waiting = gathered.entry.hits; waiting;) {
+            const std::uint32_t group = same_way(orb, gathered.entry, waiting);
+            waiting &= ~group;
+            const bool together =
+                trace_packet(orb, gathered.rays, gathered.entry, group, world_.end().cut, 0, scratch.packet);
+            Seen seen;
+            if (together) leaving_for_rectangles(group, scratch, seen);
+            for (std::uint32_t bits = group; bits; bits &= bits - 1) {
+                const int l = std::countr_zero(bits);
+                const EntryPacket &e = gathered.entry;
+                path.dropped = together ? scratch.packet.dropped[l] : 0;
+                path.lights = &world_.lights().share(0, 0);
+                const Rgb light = together
+                                      ? seen.at(l)
+                                      : world_.glass(0, {gathered.rays.origin.at(l), gathered.rays.direction.at(l)},
+                                                     {e.distance[l], e.impact[l], e.depth[l], e.foot.at(l)},
+                                                     world_.end(), 1, 0, path);
+                pixels[gathered.pixel[l]] += gathered.share[l] * light;
+                missing[gathered.pixel[l]] += gathered.share[l] * path.dropped;
+            }
+        }
+        path.dropped = dropped_by_others;
     }
 
     /// The light of all ways out of an orb.
@@ -314,10 +363,8 @@ void render_tile(const PixelRenderer<Real> &pixel, const Camera &camera, int til
     const int left = tile % across * tile_px, top = tile / across * tile_px;
     for (int row = top; row < std::min(top + tile_px, height); ++row)
         for (int column = left; column < std::min(left + tile_px, width); ++column)
-            pixel(column, row, scratch, pixels,
-                  missing[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
-                          static_cast<std::size_t>(column)]);
-    pixel.finish(scratch, pixels);
+            pixel(column, row, scratch, pixels, missing);
+    pixel.finish(scratch, pixels, missing);
 }
 
 inline int tiles_of(const Camera &camera) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where in a pixel the samples lie: the Sobol (0,2)-sequence, Owen-scrambled by hashing, and two plainer ways to compare
-// it with. Burley, Practical Hash-based Owen Scrambling, JCGT 9(4), 2020.
+// Where in a pixel the samples lie: the Sobol (0,2)-sequence, Owen-scrambled by hashing, and two plainer ways to
+// compare it with. Burley, Practical Hash-based Owen Scrambling, JCGT 9(4), 2020.
 #pragma once
 
 #include <cstdint>

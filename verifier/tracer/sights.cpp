@@ -24,7 +24,7 @@ THREEFOLD_INLINE void add(const std::uint16_t *from, double share, Four &sum) {
 
 THREEFOLD_VECTOR
 void glance(const std::vector<Sight> &sights, const RectangleHits &hits, const Lanes &weight, double factor,
-            std::uint32_t asked, Glance &glance, Rgb &sum) {
+            std::uint32_t asked, Glance &glance, Seen &seen) {
     Lanes width, height, offset;
     THREEFOLD_LANES
     for (int l = 0; l < lanes; ++l) width.v[l] = height.v[l] = 2;
@@ -62,10 +62,12 @@ void glance(const std::vector<Sight> &sights, const RectangleHits &hits, const L
         const Sight &sight = sights[static_cast<std::size_t>(static_cast<std::int64_t>(hits.which.v[l]) + 1)];
         switch (sight.kind) {
         case Sight::Kind::constant:
-            sum += factor * weight.v[l] * sight.colour;
+            for (int c = 0; c < 3; ++c) seen.left[l][c] += factor * weight.v[l] * sight.colour[c];
             break;
         case Sight::Kind::coordinates:
-            sum += factor * weight.v[l] * Rgb(hits.u.v[l], hits.v.v[l], 1);
+            seen.left[l][0] += factor * weight.v[l] * hits.u.v[l];
+            seen.left[l][1] += factor * weight.v[l] * hits.v.v[l];
+            seen.left[l][2] += factor * weight.v[l];
             break;
         case Sight::Kind::texture:
             glance.textured |= 1u << l;
@@ -79,17 +81,20 @@ void glance(const std::vector<Sight> &sights, const RectangleHits &hits, const L
 }
 
 THREEFOLD_VECTOR
-void read(const Glance &glance, Rgb &sum) {
-    Four left{}, right{};
+void read(const Glance &glance, Seen &seen) {
     for (std::uint32_t bits = glance.textured; bits; bits &= bits - 1) {
         const int l = std::countr_zero(bits);
         const std::uint16_t *upper = glance.texel[l], *lower = upper + glance.down[l];
+        Four left, right;
+        std::memcpy(&left, seen.left[l], sizeof left);
+        std::memcpy(&right, seen.right[l], sizeof right);
         add(upper, glance.upper_left.v[l], left);
         add(lower, glance.lower_left.v[l], left);
         add(upper + 2, glance.upper_right.v[l], right);
         add(lower + 2, glance.lower_right.v[l], right);
+        std::memcpy(seen.left[l], &left, sizeof left);
+        std::memcpy(seen.right[l], &right, sizeof right);
     }
-    sum += Rgb(left[0] + right[1], left[1] + right[2], left[2] + right[3]);
 }
 
 } // namespace threefold::tracer

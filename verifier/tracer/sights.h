@@ -28,12 +28,27 @@ struct Glance {
     Lanes upper_left, upper_right, lower_left, lower_right;
 };
 
-/// Takes the lanes of `asked`, each `factor` times its `weight`: adds what does not need memory to `sum`, and asks for
+/// What was seen, by lane: four channels each that hold a colour from the first on, and from the second on.
+struct Seen {
+    alignas(64) double left[lanes][4], right[lanes][4];
+
+    Seen() : left{}, right{} {}
+    Rgb at(int lane) const {
+        return {left[lane][0] + right[lane][1], left[lane][1] + right[lane][2], left[lane][2] + right[lane][3]};
+    }
+    Rgb sum() const {
+        Rgb all(0);
+        for (int l = 0; l < lanes; ++l) all += at(l);
+        return all;
+    }
+};
+
+/// Takes the lanes of `asked`, each `factor` times its `weight`: adds what does not need memory to `seen`, and asks for
 /// the texels of the others. sights[0] is the surroundings, sights[1 + i] the rectangle i of `hits`.
 void glance(const std::vector<Sight> &sights, const RectangleHits &hits, const Lanes &weight, double factor,
-            std::uint32_t asked, Glance &glance, Rgb &sum);
+            std::uint32_t asked, Glance &glance, Seen &seen);
 
 /// Adds what the texels are, bilinear as `sample` in scenes/texture.h.
-void read(const Glance &glance, Rgb &sum);
+void read(const Glance &glance, Seen &seen);
 
 } // namespace threefold::tracer

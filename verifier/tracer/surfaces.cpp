@@ -128,12 +128,8 @@ std::uint32_t Surfaces::intersect(const RayPacket &rays, std::uint32_t active, c
         }
         if (const double d = met.distance[l]; d <= limit[l] && !(is_hit && hit.distance <= d) && met.which[l] >= 0) {
             const Rectangle &r = rectangles_[static_cast<std::size_t>(met.which[l])];
-            hit = {d,
-                   origin + d * direction,
-                   r.object,
-                   0,
-                   {met.u[l], met.v[l]},
-                   glm::dot(direction, r.normal) > 0 ? -r.normal : r.normal};
+            hit = {d, origin + d * direction, r.object,
+                   0, {met.u[l], met.v[l]},   glm::dot(direction, r.normal) > 0 ? -r.normal : r.normal};
             is_hit = true;
         }
         found |= static_cast<std::uint32_t>(is_hit) << l;
