@@ -258,13 +258,26 @@ private:
             const double law = s.model.noise.variance(row.knobs.samples);
             system.variance_ratio = law > 0 ? row.error.variance.value / law : 1;
             system.own_s_per_sample = row.cost.own_cpu_s / row.knobs.samples;
-            system.start_s = std::max(0.0, row.cost.process_cpu_s - row.cost.own_cpu_s);
+            system.start_s = start_s(s, row.knobs.surface_mm);
             if (known != s.model.systems.end())
                 *known = system;
             else
                 s.model.systems.push_back(system);
         }
         result_.laws.push_back({s.witness->name, s.model.noise, offset_in_words(s)});
+    }
+
+    /// What a process takes beside rendering: the mean over all settings with the same meshes, for it does not depend on
+    /// the others, and its noise is not to choose between them.
+    double start_s(const Studied &s, double surface_mm) const {
+        double sum = 0, count = 0;
+        for (const std::size_t i : s.rows) {
+            const TradeRow &row = result_.rows[i];
+            if (row.knobs.surface_mm != surface_mm) continue;
+            sum += row.cost.process_cpu_s - row.cost.own_cpu_s;
+            count += 1;
+        }
+        return std::max(0.0, sum / count);
     }
 
     std::string offset_in_words(const Studied &s) const {

@@ -55,7 +55,19 @@ Axis axis_of(std::vector<double> values, double from, double to) {
     return {low - 0.15 * std::max(1.0, high - low) / 2, high + 0.15 * std::max(1.0, high - low) / 2, from, to};
 }
 
-std::string decade(int k) { return k >= -2 && k <= 3 ? fmt::format("{:g}", std::pow(10, k)) : report::typeset(fmt::format("1e{}", k)); }
+/// Powers of ten; where there are few of them in reach, their doubles and fivefolds too.
+std::vector<double> ticks_of(const Axis &axis) {
+    std::vector<double> ticks;
+    for (int k = static_cast<int>(std::floor(axis.low)); k <= axis.high; ++k)
+        for (const double factor : axis.high - axis.low < 2 ? std::vector{1.0, 2.0, 5.0} : std::vector{1.0})
+            if (const double t = std::log10(factor) + k; t >= axis.low && t <= axis.high)
+                ticks.push_back(factor * std::pow(10, k));
+    return ticks;
+}
+
+std::string tick_text(double value) {
+    return value >= 1e-3 && value < 1e4 ? fmt::format("{:g}", std::round(value * 1e4) / 1e4) : report::typeset(fmt::format("{:.0e}", value));
+}
 
 void add_table(std::string &out, const std::vector<std::vector<std::string>> &table) {
     out += R"(<div class="scroll"><table class="plain"><thead><tr>)";
@@ -92,15 +104,15 @@ std::string work_precision_svg(const TradeResult &result, bool whole) {
     std::string out = fmt::format(
         R"(<svg class="diagram" xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {} {}" role="img" aria-label="relative RMS error over CPU seconds, {}">)",
         width, height, what);
-    for (int k = static_cast<int>(std::ceil(x.low)); k <= x.high; ++k) {
-        const double at = x.at(std::pow(10, k));
+    for (const double tick : ticks_of(x)) {
+        const double at = x.at(tick);
         out += fmt::format(R"(<path class="grid" d="M{0:.1f} {1}V{2}"/><text x="{0:.1f}" y="{3}" text-anchor="middle">{4}</text>)",
-                           at, top, height - bottom, height - bottom + 20, decade(k));
+                           at, top, height - bottom, height - bottom + 20, tick_text(tick));
     }
-    for (int k = static_cast<int>(std::ceil(y.low)); k <= y.high; ++k) {
-        const double at = y.at(std::pow(10, k));
+    for (const double tick : ticks_of(y)) {
+        const double at = y.at(tick);
         out += fmt::format(R"(<path class="grid" d="M{0} {1:.1f}H{2}"/><text x="{3}" y="{4:.1f}" text-anchor="end">{5}</text>)",
-                           left, at, width - right, left - 8, at + 4, decade(k));
+                           left, at, width - right, left - 8, at + 4, tick_text(tick));
     }
     for (const double t : result.tolerances)
         out += fmt::format(R"(<path class="tolerance" d="M{0} {1:.1f}H{2}"/><text x="{2}" y="{3:.1f}" text-anchor="end">tolerance {4:g}</text>)",

@@ -79,7 +79,7 @@ std::vector<std::string> answers(const TradeResult &result) {
                     "fresh seeds its error is {:.3g} +- {:.1g}{}.",
                     title, tolerance, c.setting, c.cost.own_cpu_s, c.cost.process_cpu_s, c.measured.root(),
                     c.measured.standard_error / (2 * std::max(c.measured.root(), 1e-300)),
-                    c.tried > 1 ? fmt::format(" (the {}th setting tried)", c.tried) : ""));
+                    c.tried > 1 ? fmt::format(" ({} settings were tried)", c.tried) : ""));
             else if (c.setting.empty())
                 all.push_back(fmt::format("{} does not meet {:g}: {}.", title, tolerance, c.note));
             else
