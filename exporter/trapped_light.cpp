@@ -43,9 +43,9 @@ double left_inside(const Orb &orb, double impact_mm, int most_interfaces) {
     const double outer = reflected(n, impact_mm / orb.outer_mm, impact_mm / orb.outer_mm / n);
     double inward = (1 - outer) * tau, outward = 0, hollow = 0; // what has left each surface, and where to
     const double inner_sine = orb.inner_mm > 0 ? impact_mm / n / orb.inner_mm : 2;
-    if (inner_sine >= 1) return inward * std::pow(outer, std::max(most_interfaces - 1, 0));
+    if (inner_sine >= 1) return inward * std::pow(outer, std::max(most_interfaces - 2, 0));
     const double inner = reflected(n, inner_sine * n, inner_sine);
-    for (int met = 1; met < most_interfaces; ++met) {
+    for (int met = 1; met < most_interfaces - 1; ++met) { // what leaves at the last one is lost too
         const double next_outward = inward * inner + hollow * (1 - inner) * tau;
         const double next_hollow = inward * (1 - inner) * tau + hollow * inner;
         inward = outward * outer;

@@ -7,8 +7,8 @@
 
 namespace threefold {
 
-/// The share of the picture's rays' light that is still inside glass after it met `most_interfaces` surfaces: mean over
-/// rays through a grid of the picture's pixels, 0 to 1. By unpolarised Fresnel shares, each the same at every meeting
+/// The share of the picture's rays' light that is lost where a path ends with the `most_interfaces`-th surface of glass that
+/// it meets, the way out at that one included: mean over rays through a grid of the picture's pixels, 0 to 1. By unpolarised Fresnel shares, each the same at every meeting
 /// with a sphere. Of each ray the first orb counts.
 double trapped_light(const Scene &scene, int most_interfaces);
 

@@ -143,7 +143,8 @@ TEST(Cli, HelpTeachesAndSucceeds) {
     EXPECT_EQ(help.exit_code, 0);
     EXPECT_THAT(help.out, HasSubstr("Start here"));
     EXPECT_THAT(help.out, HasSubstr("Exit codes"));
-    for (const char *command : {"list", "show", "doctor", "export", "render", "check", "compare", "optics"}) {
+    for (const char *command :
+         {"list", "show", "doctor", "export", "render", "check", "compare", "optics", "power", "extremes"}) {
         EXPECT_THAT(help.out, HasSubstr(command));
         EXPECT_EQ(run(folder, std::string(command) + " --help").exit_code, 0);
     }
