@@ -137,8 +137,8 @@ TEST(Uniaxial, AlongTheSightLineTheRayWalksOffByTheKnownAngle) {
 }
 
 TEST(ParallelPlanes, DeepBetweenThemEachReflectionAddsTheProductOfBothReflectances) {
-    const auto extra = thrown_back({1, 60, 0.8, 0.5, -40, 100}, [](double) { return 2.0; });
-    EXPECT_NEAR(extra(30), 2 * 0.4 / (1 - 0.4), 1e-3);
+    const auto extra = thrown_back({1, 80, 0.5, 0.4, -40, 120}, [](double) { return 2.0; });
+    EXPECT_NEAR(extra(40), 2 * 0.2 / (1 - 0.2), 1e-3);
     EXPECT_LT(extra(-20), 0.02) << "far from the board hardly anything comes back";
 }
 

@@ -313,7 +313,7 @@ Through isotropic(const Calcite &c, double index) {
 
 /// The crystal as it is: over the optic axis's directions, the ratio farthest from that of two isotropic balls.
 struct RealCrystal {
-    double least, greatest, change;
+    double least, greatest, towards; ///< the ratios; and how far from the model towards the threshold
 };
 
 RealCrystal real_crystal(const Calcite &c) {
@@ -330,8 +330,8 @@ RealCrystal real_crystal(const Calcite &c) {
         });
         found.least = std::min(found.least, ratio);
         found.greatest = std::max(found.greatest, ratio);
-        if (!(std::abs(ratio - model) <= found.change)) found.change = std::abs(ratio - model);
     }
+    found.towards = std::max(0.0, model > c.least_ratio ? model - found.least : found.greatest - model);
     return found;
 }
 
@@ -367,11 +367,12 @@ std::vector<ScopeNumber> scope(const ClaimContext &context, const ScopeSettings 
                                             settings.calcite_abbe_ordinary, settings.calcite_abbe_extraordinary, least,
                                             greatest)},
                  .absorption = directions_know_no_absorption(),
-                 .birefringence = {real.change,
+                 .birefringence = {real.towards,
                                    fmt::format("rays traced through the uniaxial crystal itself, walk-off (up to {:.2f} "
                                                "degrees) and an index by direction included, the optic axis at 13 "
-                                               "angles to the sight line: {:.3g} to {:.3g}",
-                                               walk_off, real.least, real.greatest)},
+                                               "angles to the sight line: {:.3g} to {:.3g} in place of {:.3g}; what "
+                                               "counts is the way towards the threshold",
+                                               walk_off, real.least, real.greatest, model)},
                  .light_size = lit.light_size,
                  .caustics = lit.caustics,
                  .interreflection = lit.interreflection,

@@ -201,13 +201,14 @@ std::optional<FlipPoint> flip_of(const ClaimContext &context) {
 /// the orb's centre.
 double mean_over(const Scene &scene, const OrbInScene &orb, double from_mm, double to_mm, const LightModel &model,
                  Vec2 aside_mm = Vec2(0)) {
-    constexpr int circles = 12, azimuths = 6;
+    constexpr int circles = 6, azimuths = 24; // the card is square: outer orders miss it between its corners
     const CameraFrame frame = camera_frame(scene.camera);
     const double focus = glm::dot(orb.centre_mm - scene.camera.eye_mm, frame.forward);
     double sum = 0, weights = 0;
     for (int k = 0; k < circles; ++k)
-        for (int j = 0; j < (aside_mm == Vec2(0) ? 1 : azimuths); ++j) {
-            const double b = from_mm + (to_mm - from_mm) * (k + 0.5) / circles, azimuth = 2 * std::numbers::pi * j / azimuths;
+        for (int j = 0; j < azimuths; ++j) {
+            const double b = from_mm + (to_mm - from_mm) * (k + 0.5) / circles;
+            const double azimuth = 2 * std::numbers::pi * (j + 0.5) / azimuths;
             const auto ray = ray_past(scene.camera, orb.centre_mm, b, azimuth);
             sum += b * predicted_radiance(scene, orb, from_pupil(*ray, frame, aside_mm, focus), model);
             weights += b;

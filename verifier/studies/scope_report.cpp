@@ -33,27 +33,24 @@ std::string required_text(const ScopeNumber &n, Effect effect) {
     return n.requires_effect(effect) ? "required" : "no";
 }
 
+/// Without an exponent.
+std::string two_digits(double value) {
+    return value < 99.5 ? fmt::format("{:.2g}", value) : fmt::format("{:.0f}", value);
+}
+
 std::string share_text(const ScopeNumber &n, const Bound &bound) {
     if (!bound.depends) return "-";
     if (bound.picture) return "?";
     if (bound.value == 0) return "0 %";
-    const double percent = 100 * bound.value / n.margin;
-    if (!std::isfinite(percent)) return "all";
-    if (percent < 0.01) return "<0.01 %";
-    return percent < 10000 ? fmt::format("{:.2g} %", percent) : fmt::format("x {:.2g}", percent / 100);
+    const double share = bound.value / n.margin;
+    if (!std::isfinite(share)) return "all";
+    if (share < 1e-4) return "under 0.01 %";
+    return share < 10 ? two_digits(100 * share) + " %" : two_digits(share) + " times";
 }
 
 std::string named(const ScopeResult &result, const ClaimScope &scope) {
     const bool twice = std::ranges::count(result.claims, scope.claim, &ClaimScope::claim) > 1;
     return twice ? fmt::format("{} ({})", scope.claim, scope.preset) : scope.claim;
-}
-
-/// Percentages of two digits as plain numbers: fmt's {:.2g} would write 1.2e+02.
-std::string plain(std::string text) {
-    const std::size_t e = text.find("e+0");
-    if (e == std::string::npos) return text;
-    const double value = std::stod(text);
-    return fmt::format("{:.0f}{}", value, text.substr(e + 4));
 }
 
 std::string ray_text(const ScopeRay &r) {
@@ -114,7 +111,7 @@ std::string cell_of(const ClaimScope &scope, Effect effect) {
     if (!scope.answered) return "?";
     const ScopeNumber *n = most_moved(scope.numbers, effect);
     if (!n) return "-";
-    const std::string share = plain(share_text(*n, n->bounds.of(effect)));
+    const std::string share = share_text(*n, n->bounds.of(effect));
     return n->requires_effect(effect) ? "**" + share + "**" : share;
 }
 
@@ -225,7 +222,7 @@ std::string to_markdown(const ScopeResult &result) {
                 const Bound &bound = n.bounds.of(entry.effect);
                 const std::string required = required_text(n, entry.effect);
                 out += fmt::format("| {} | {} | {} | {} | {} |\n", entry.name, bound_text(n, bound),
-                                   plain(share_text(n, bound)), required == "required" ? "**required**" : required,
+                                   share_text(n, bound), required == "required" ? "**required**" : required,
                                    bound.why);
             }
         }
