@@ -186,6 +186,19 @@ TEST(ShadowRays, KnowStrongLightsOfAllSharesAsOne) {
         }
 }
 
+TEST(ShadowRays, GiveTheSamePictureForAnyNumberOfThreads) {
+    RenderJob job;
+    job.scene = landscape(30);
+    job.samples_per_pixel = 12;
+    job.cut_weight = 1e-2;
+    job.threads = 1;
+    const Image one = trace(job).images[0];
+    job.threads = 4;
+    const Image four = trace(job).images[0];
+    EXPECT_EQ(one.pixels, four.pixels);
+    EXPECT_GT(one.at(24, 25).g, 0.01);
+}
+
 TEST(Sights, AreWhatTheTexturesSayAtAnyPointOfAnySize) {
     std::mt19937_64 random(13);
     std::uniform_real_distribution<double> unit(0, 1);
