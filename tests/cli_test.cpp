@@ -355,6 +355,19 @@ TEST(Cli, ExportsAreCompleteFoldersWithWhatTheyLose) {
     EXPECT_FALSE(fs::exists(folder / "n"));
 }
 
+TEST(Cli, ClaimsScenesForElsewhereGoIntoAFolderOfTheirOwn) {
+    const tests::TemporaryFolder folder;
+    write_file_atomically(folder / "mine.txt", "kept");
+    const Answer answer = run(folder, "check calibration --quick --export mitsuba=.");
+    EXPECT_EQ(answer.exit_code, 74) << answer.err;
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder / "."), fs::directory_iterator()), 1);
+    EXPECT_EQ(run(folder, "check calibration --quick --export mitsuba=there").exit_code, 0);
+    EXPECT_TRUE(fs::exists(folder / "there/render.sh"));
+    const std::string script = read_file(folder / "there/render.sh");
+    EXPECT_EQ(run(folder, "check calibration --quick --export mitsuba=there").exit_code, 74);
+    EXPECT_EQ(read_file(folder / "there/render.sh"), script);
+}
+
 TEST(Cli, ExportsThatNeedBlenderSayWhenItIsMissing) {
     const tests::TemporaryFolder folder;
     for (const char *format : {"blender", "glb"})

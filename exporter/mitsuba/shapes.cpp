@@ -146,10 +146,13 @@ void Reader::put_glass_together() {
         }
         if (outer.glass.thin) {
             const double share = parameters_.number("thin.wall_share");
+            // In the file the tint is on what passes alone; here what the inner surface reflects passes the outer one.
+            const double lost = (1 - glass.interface_transmittance) / 2;
             findings_.note(*outer.node,
                            fmt::format("a sheet without thickness is taken as a hollow orb whose wall is "
-                                       "{:g} of its radius (thin.wall_share), its tint as that of two surfaces",
-                                       share));
+                                       "{:g} of its radius (thin.wall_share), its tint as that of two surfaces{}",
+                                       share,
+                                       lost > 0 ? fmt::format(": it reflects about {:.2g} % less", 100 * lost) : ""));
             Glass sheet = glass;
             sheet.interface_transmittance = std::sqrt(glass.interface_transmittance);
             scene_.objects.push_back(
