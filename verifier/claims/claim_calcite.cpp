@@ -331,6 +331,8 @@ RealCrystal real_crystal(const Calcite &c) {
         found.least = std::min(found.least, ratio);
         found.greatest = std::max(found.greatest, ratio);
     }
+    if (!(found.least <= found.greatest)) // no ray came through
+        return {found.least, found.greatest, std::numeric_limits<double>::infinity()};
     found.towards = std::max(0.0, model > c.least_ratio ? model - found.least : found.greatest - model);
     return found;
 }

@@ -74,7 +74,7 @@ std::string conclusion(const ScopeResult &result) {
     }
     std::string text = required.empty()
                            ? "No effect that the models leave out could move a claim's number by more than its margin."
-                           : fmt::format("Within their models only: {}. For all other claims nothing that is left out "
+                           : fmt::format("Within their models only: {}. For the other claims asked nothing that is left out "
                                          "could move a number by more than its margin.",
                                          fmt::join(required, "; "));
     if (untold > 0) text += fmt::format(" {} claim(s) do not say what they leave out.", untold);
