@@ -355,6 +355,20 @@ TEST(Cli, ExportsAreCompleteFoldersWithWhatTheyLose) {
     EXPECT_FALSE(fs::exists(folder / "n"));
 }
 
+TEST(Cli, ShowTellsWhatAMitsubaFileIsTakenFor) {
+    const tests::TemporaryFolder folder;
+    write_file_atomically(folder / "sheet.xml", R"(<scene version="0.5.0">
+<sensor type="perspective"><float name="fov" value="10"/><transform name="toWorld"><lookat origin="90,0,0" target="0,0,0" up="0,1,0"/></transform></sensor>
+<emitter type="constant"><spectrum name="radiance" value="1"/></emitter>
+<shape type="sphere"><bsdf type="thindielectric"><spectrum name="specularTransmittance" value="0.85"/></bsdf></shape>
+</scene>)");
+    const Answer told = run(folder, "show --mitsuba sheet.xml --verbose");
+    EXPECT_EQ(told.exit_code, 0) << told.err;
+    EXPECT_THAT(told.err, HasSubstr("a sheet without thickness"));
+    EXPECT_THAT(told.err, HasSubstr("reflects about 7.5 % less"));
+    EXPECT_EQ(run(folder, "show --mitsuba sheet.xml").err, "");
+}
+
 TEST(Cli, ClaimsScenesForElsewhereGoIntoAFolderOfTheirOwn) {
     const tests::TemporaryFolder folder;
     write_file_atomically(folder / "mine.txt", "kept");

@@ -250,6 +250,7 @@ int run(int argc, char **argv, const std::vector<SceneRecipe> &scenes, const std
         *app.add_subcommand("show", "A scene's parameters with units, ranges and both presets, and what it needs");
     add_scene_options(show, show_scene);
     show.add_flag("--json", show_json, "Parameters and the whole scene as JSON on stdout");
+    show.add_flag("-v,--verbose", verbose, "Also say what in a Mitsuba file is read otherwise, or not used");
 
     CLI::App &doctor = *app.add_subcommand("doctor", "What is installed here, and does it work?");
     add_common(doctor);
