@@ -113,8 +113,8 @@ void add_key(std::string &out, int x, int y) {
         int width;
     };
     for (const Entry &e : {Entry{"right", "right, to 1e-9", 132}, Entry{"right2", "to 1e-6", 92}, Entry{"right3", "to 1e-3 of the radius", 166},
-                           Entry{"degraded", "degraded: visible but stated, or beyond what was stated", 370},
-                           Entry{"unresolved", "unresolved: nothing promised", 212}, Entry{"refused", "refused, with the reason", 188},
+                           Entry{"degraded", "degraded: visible but stated, or beyond what was stated", 400},
+                           Entry{"unresolved", "unresolved: nothing promised", 230}, Entry{"refused", "refused, with the reason", 200},
                            Entry{"wrong", "wrong", 60}}) {
         fmt::format_to(std::back_inserter(out),
                        "<rect class=\"{}\" x=\"{}\" y=\"{}\" width=\"20\" height=\"14\" rx=\"3\"/>"
