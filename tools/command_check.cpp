@@ -39,6 +39,12 @@ std::vector<Witness> asked_witnesses(const std::vector<std::string> &names) {
     return found;
 }
 
+std::vector<Witness> usable_witnesses(const std::vector<std::string> &names) {
+    std::vector<Witness> found = asked_witnesses(names);
+    std::erase_if(found, [](const Witness &w) { return !w.present() || !w.problem.empty(); });
+    return found;
+}
+
 namespace {
 
 std::map<std::string, InjectedFault> parse_injections(const std::vector<std::string> &injections) {

@@ -29,6 +29,13 @@ std::vector<std::pair<std::string, std::string>> library_versions() {
     };
 }
 
+std::vector<std::pair<std::string, std::string>> versions_with(const std::vector<Witness> &witnesses) {
+    auto versions = library_versions();
+    for (const Witness &w : witnesses)
+        if (w.installed) versions.emplace_back(w.title, w.installed->version);
+    return versions;
+}
+
 namespace {
 
 /// A picture of 16 x 16 px; empty if it came, else what was wrong.

@@ -14,9 +14,7 @@ Exit command_extremes(const Shop &shop, const ExtremesCommand &command) {
     ExtremesRequest request;
     std::vector<std::string> with = command.with;
     if (with.empty() && command.quick) with = {"tracer"};
-    request.witnesses = asked_witnesses(with);
-    // All that are installed, where none was named.
-    std::erase_if(request.witnesses, [](const Witness &w) { return !w.present() || !w.problem.empty(); });
+    request.witnesses = usable_witnesses(with);
     request.sweeps = command.sweeps;
     request.quick = command.quick;
     request.threads = shop.threads;
@@ -31,9 +29,7 @@ Exit command_extremes(const Shop &shop, const ExtremesCommand &command) {
     progress.finish();
     result.threefold_version = THREEFOLD_VERSION;
     result.command = shop.command_line;
-    result.versions = library_versions();
-    for (const Witness &w : request.witnesses)
-        if (w.installed) result.versions.emplace_back(w.title, w.installed->version);
+    result.versions = versions_with(request.witnesses);
 
     const std::string json = to_json(result).dump(1);
     write_file_atomically(command.folder / "extremes.json", json + "\n");

@@ -21,18 +21,9 @@ Exit command_power(const Shop &shop, const PowerCommand &command) {
     for (const std::string &name : command.without) find_claim(shop.claims, name); // an unknown one is an error
     request.scenes = shop.scenes;
     std::vector<std::string> with = command.with;
-    if (with.empty()) with = command.quick ? std::vector<std::string>{"tracer"} : witness_names();
-    if (std::ranges::count(with, "tracer") == 0) with.insert(with.begin(), "tracer");
-    request.witnesses = find_witnesses(with);
-    for (const Witness &w : request.witnesses) {
-        if (w.present() && w.problem.empty()) continue;
-        if (!command.with.empty())
-            throw Error(w.problem.empty() ? Exit::renderer_missing : Exit::input_output,
-                        w.problem.empty() ? fmt::format("{} was asked for and is not installed", w.title) : w.problem,
-                        fmt::format("apt-get install {}", w.package));
-    }
-    // A missing renderer would leave every verdict undecided.
-    std::erase_if(request.witnesses, [](const Witness &w) { return !w.present() || !w.problem.empty(); });
+    if (with.empty() && command.quick) with = {"tracer"};
+    if (!with.empty() && std::ranges::count(with, "tracer") == 0) with.insert(with.begin(), "tracer");
+    request.witnesses = usable_witnesses(with); // a missing one would leave every verdict undecided
     for (const FaultEntry &entry : faults())
         if (command.faults.empty() || std::ranges::count(command.faults, entry.name))
             request.faults.push_back(entry.fault);
@@ -51,9 +42,7 @@ Exit command_power(const Shop &shop, const PowerCommand &command) {
     progress.finish();
     result.threefold_version = THREEFOLD_VERSION;
     result.command = shop.command_line;
-    result.versions = library_versions();
-    for (const Witness &w : request.witnesses)
-        if (w.installed) result.versions.emplace_back(w.title, w.installed->version);
+    result.versions = versions_with(request.witnesses);
 
     const std::string json = to_json(result).dump(1), page = to_markdown(result);
     write_file_atomically(command.folder / "power.json", json + "\n");

@@ -172,6 +172,8 @@ Exit command_gallery(const Shop &shop, const GalleryCommand &command);
 
 /// Those asked for by name, which must be there; all, present or not, when none is named.
 std::vector<Witness> asked_witnesses(const std::vector<std::string> &names);
+/// The same without those that cannot be used.
+std::vector<Witness> usable_witnesses(const std::vector<std::string> &names);
 
 /// Precision, transport and sampler by their names on the command line.
 TracerSettings tracer_settings(const std::string &precision, const std::string &transport,
@@ -187,5 +189,7 @@ void write_result(const std::string &where, const std::string &text);
 
 /// Name and version of each library that a picture or a number depends on.
 std::vector<std::pair<std::string, std::string>> library_versions();
+/// The same, and the renderers that take part.
+std::vector<std::pair<std::string, std::string>> versions_with(const std::vector<Witness> &witnesses);
 
 } // namespace threefold

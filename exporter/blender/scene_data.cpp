@@ -148,7 +148,7 @@ Json sampling_by_filter(const RenderJob &job, const Needs &needs) {
 
 Json write_sampling(const RenderJob &job, const Needs &needs) {
     Json sampling = sampling_by_filter(job, needs);
-    if (job.most_bounces) sampling["bounces"] = std::clamp(*job.most_bounces, 1, 256);
+    if (job.most_bounces) sampling["bounces"] = std::clamp(*job.most_bounces, 1, deepest_path);
     return sampling;
 }
 

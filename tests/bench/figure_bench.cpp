@@ -9,7 +9,7 @@
 #include <map>
 
 #if __has_include(<embree3/rtcore.h>)
-#include <embree3/rtcore.h>
+#include "tests/bench/embree_scene.h"
 
 #include "scenes/catalogue/catalogue.h"
 #include "scenes/validate.h"
@@ -74,9 +74,9 @@ const Prepared &prepared(std::int64_t scene) {
 }
 
 /// All of the scene as Embree's own primitives, with nothing else asked of it.
-class BareWorld {
+class BareWorld : public EmbreeScene {
 public:
-    explicit BareWorld(const Scene &scene) : device_(rtcNewDevice("threads=1")), scene_(rtcNewScene(device_)) {
+    explicit BareWorld(const Scene &scene) {
         for (const Object &object : scene.objects)
             std::visit(overloaded{
                            [&](const GlassBall &b) { sphere(b.centre_mm, b.radius_mm); },
@@ -93,19 +93,12 @@ public:
                            [&](const Mesh &m) { triangles(m.vertices_mm, m.triangles); },
                        },
                        object.shape);
-        rtcCommitScene(scene_);
+        commit();
     }
-    ~BareWorld() {
-        rtcReleaseScene(scene_);
-        rtcReleaseDevice(device_);
-    }
-    BareWorld(const BareWorld &) = delete;
-    BareWorld &operator=(const BareWorld &) = delete;
-    RTCScene get() const { return scene_; }
 
 private:
     void sphere(Vec3 centre, double radius) {
-        RTCGeometry g = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_SPHERE_POINT);
+        RTCGeometry g = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_SPHERE_POINT);
         auto *v = static_cast<float *>(
             rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, 4 * sizeof(float), 1));
         for (int k = 0; k < 3; ++k) v[k] = static_cast<float>(centre[k]);
@@ -113,7 +106,7 @@ private:
         attach(g);
     }
     void triangles(const std::vector<Vec3> &vertices, const std::vector<glm::uvec3> &indices) {
-        RTCGeometry g = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+        RTCGeometry g = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_TRIANGLE);
         auto *v = static_cast<float *>(rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                                                3 * sizeof(float), vertices.size()));
         for (const Vec3 &p : vertices)
@@ -124,13 +117,6 @@ private:
             for (int k = 0; k < 3; ++k) *i++ = t[k];
         attach(g);
     }
-    void attach(RTCGeometry g) {
-        rtcCommitGeometry(g);
-        rtcAttachGeometry(scene_, g);
-        rtcReleaseGeometry(g);
-    }
-    RTCDevice device_;
-    RTCScene scene_;
 };
 
 void ours(benchmark::State &state) {

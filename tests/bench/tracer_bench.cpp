@@ -6,7 +6,7 @@
 #include <bit>
 
 #if __has_include(<embree3/rtcore.h>)
-#include <embree3/rtcore.h>
+#include "tests/bench/embree_scene.h"
 #define THREEFOLD_BENCH_EMBREE
 #endif
 
@@ -133,18 +133,18 @@ BENCHMARK(tree_eight_at_once);
 
 #ifdef THREEFOLD_BENCH_EMBREE
 /// The rays that leave the orb, asked of bare Embree: two spheres and a rectangle of its own, in single precision.
-class EmbreeOrb {
+class EmbreeOrb : public EmbreeScene {
 public:
-    EmbreeOrb() : device_(rtcNewDevice("threads=1")), scene_(rtcNewScene(device_)) {
+    EmbreeOrb() {
         for (const float radius : {67.98f, 66.62f}) {
-            RTCGeometry g = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_SPHERE_POINT);
+            RTCGeometry g = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_SPHERE_POINT);
             auto *v = static_cast<float *>(
                 rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, 4 * sizeof(float), 1));
             v[0] = v[1] = v[2] = 0;
             v[3] = radius;
             attach(g);
         }
-        RTCGeometry g = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_QUAD);
+        RTCGeometry g = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_QUAD);
         auto *v = static_cast<float *>(
             rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), 4));
         const float corners[] = {-200, -200, -250, 200, -200, -250, 200, 200, -250, -200, 200, -250};
@@ -153,24 +153,8 @@ public:
             rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4, 4 * sizeof(unsigned), 1));
         for (unsigned k = 0; k < 4; ++k) i[k] = k;
         attach(g);
-        rtcCommitScene(scene_);
+        commit();
     }
-    ~EmbreeOrb() {
-        rtcReleaseScene(scene_);
-        rtcReleaseDevice(device_);
-    }
-    EmbreeOrb(const EmbreeOrb &) = delete;
-    EmbreeOrb &operator=(const EmbreeOrb &) = delete;
-    RTCScene get() const { return scene_; }
-
-private:
-    void attach(RTCGeometry g) {
-        rtcCommitGeometry(g);
-        rtcAttachGeometry(scene_, g);
-        rtcReleaseGeometry(g);
-    }
-    RTCDevice device_;
-    RTCScene scene_;
 };
 
 /// All rays of the scene's trees beyond the camera's: those that leave the orb, eight by eight as they leave.

@@ -321,23 +321,8 @@ std::vector<ScopeNumber> scope_of(const ClaimContext &context, const ClaimContex
         const auto share = [&](const OrbInScene &o, const LightModel &model, Vec2 aside) {
             return exact_share(e.scene, e.scene.camera, o, fine, model, aside);
         };
-        const auto by_model = [&](const LightModel &model) { return share(orb, model, Vec2(0)); };
-        const double here = by_model({}), leg = optics::glass_leg_mm(orb.optics, optics::impact_at(orb.optics, layer_of(orb).from_mm));
-        const IndexBounds index = by_index(orb.optics.index, settings, [&](double n) {
-            OrbInScene changed = orb; // seen in the same place of the film
-            changed.optics.index = n;
-            return share(changed, {}, Vec2(0));
-        });
-        const Bound polarisation = by_polarisation(by_model);
-        const LitBounds lit = nothing_is_lit(e.scene);
-        const EffectBounds of_share{.polarisation = polarisation,
-                                    .dispersion = index.dispersion,
-                                    .absorption = by_absorption(settings, by_model),
-                                    .birefringence = with_exchange(index.birefringence, settings, leg, polarisation.value),
-                                    .light_size = lit.light_size,
-                                    .caustics = lit.caustics,
-                                    .interreflection = lit.interreflection,
-                                    .pupil = by_pupil(settings, [&](Vec2 aside) { return share(orb, {}, aside); })};
+        const double here = share(orb, {}, Vec2(0)), leg = optics::glass_leg_mm(orb.optics, optics::impact_at(orb.optics, layer_of(orb).from_mm));
+        const EffectBounds of_share = of_light(e.scene, orb, settings, leg, share);
         EffectBounds of_contrast = of_share;
         for (const EffectEntry &entry : effects()) of_contrast.of(entry.effect).value *= std::abs(gain);
         // Lost light darkens the layer whatever it shows: by at most all of what the orders lose.

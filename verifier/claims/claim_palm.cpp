@@ -234,17 +234,9 @@ std::vector<ScopeNumber> scope(const ClaimContext &context, const ScopeSettings 
         };
         const double here = at_index(orb.optics.index);
         const IndexBounds index = by_index(orb.optics.index, settings, at_index);
-        const LitBounds lit = nothing_is_lit(scene);
         numbers.push_back({fmt::format("share of the palm seen in its place through a {} orb", kind), "", here,
                            margin_to(here, {most}), margin_words({most}, ""),
-                           EffectBounds{.polarisation = directions_know_no_polarisation(),
-                                        .dispersion = index.dispersion,
-                                        .absorption = directions_know_no_absorption(),
-                                        .birefringence = index.birefringence,
-                                        .light_size = lit.light_size,
-                                        .caustics = lit.caustics,
-                                        .interreflection = lit.interreflection,
-                                        .pupil = by_pupil(settings, from_beside)}});
+                           of_directions(scene, index, by_pupil(settings, from_beside))});
     }
     return numbers;
 }

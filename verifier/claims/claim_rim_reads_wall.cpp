@@ -246,16 +246,9 @@ std::vector<ScopeNumber> scope(const ClaimContext &context, const ScopeSettings 
     const IndexBounds index = by_index(orb.optics.index, settings, [&](double n) {
         return optics::rim_width(optics::shell(orb.optics.outer_mm, wall, n));
     });
-    const LitBounds lit = nothing_is_lit(e.scene);
     return {{row.quantity, row.unit, row.value, total(row.budget), margin_is_tolerance,
-             EffectBounds{.polarisation = directions_know_no_polarisation(),
-                          .dispersion = index.dispersion,
-                          .absorption = directions_know_no_absorption(),
-                          .birefringence = index.birefringence,
-                          .light_size = lit.light_size,
-                          .caustics = lit.caustics,
-                          .interreflection = lit.interreflection,
-                          .pupil = by_pupil(settings, [&](Vec2 aside) { return width_seen(orb.optics, eye, aside); })}}};
+             of_directions(e.scene, index,
+                           by_pupil(settings, [&](Vec2 aside) { return width_seen(orb.optics, eye, aside); }))}};
 }
 
 } // namespace

@@ -317,17 +317,9 @@ std::vector<ScopeNumber> scope(const ClaimContext &context, const ScopeSettings 
             const double eye = std::hypot(view.eye_mm, glm::length(aside));
             return optics::paraxial_slope(view.orb, eye, view.plane_mm * eye / view.eye_mm);
         });
-        const LitBounds lit = nothing_is_lit(context.experiment("", "", kind, {}, {}).scene);
         numbers.push_back({fmt::format("central slope of the {} orb", kind), "", slope, margin_to(slope, {0}),
                            margin_words({0}, ""),
-                           EffectBounds{.polarisation = directions_know_no_polarisation(),
-                                        .dispersion = index.dispersion,
-                                        .absorption = directions_know_no_absorption(),
-                                        .birefringence = index.birefringence,
-                                        .light_size = lit.light_size,
-                                        .caustics = lit.caustics,
-                                        .interreflection = lit.interreflection,
-                                        .pupil = pupil}});
+                           of_directions(context.experiment("", "", kind, {}, {}).scene, index, pupil)});
     }
     return numbers;
 }

@@ -216,27 +216,6 @@ double mean_over(const Scene &scene, const OrbInScene &orb, double from_mm, doub
     return sum / weights;
 }
 
-/// One number made of light: how it answers to each effect.
-EffectBounds light_bounds(const Scene &scene, const OrbInScene &orb, const ScopeSettings &settings, double glass_mm,
-                          const std::function<double(const OrbInScene &, const LightModel &, Vec2)> &number) {
-    const auto by_model = [&](const LightModel &model) { return number(orb, model, Vec2(0)); };
-    const IndexBounds index = by_index(orb.optics.index, settings, [&](double n) {
-        OrbInScene changed = orb;
-        changed.optics.index = n;
-        return number(changed, {}, Vec2(0));
-    });
-    const Bound polarisation = by_polarisation(by_model);
-    const LitBounds lit = nothing_is_lit(scene);
-    return {.polarisation = polarisation,
-            .dispersion = index.dispersion,
-            .absorption = by_absorption(settings, by_model),
-            .birefringence = with_exchange(index.birefringence, settings, glass_mm, polarisation.value),
-            .light_size = lit.light_size,
-            .caustics = lit.caustics,
-            .interreflection = lit.interreflection,
-            .pupil = by_pupil(settings, [&](Vec2 aside) { return number(orb, {}, aside); })};
-}
-
 std::vector<ScopeNumber> scope(const ClaimContext &context, const ScopeSettings &settings) {
     const Experiment glass = with_reflections(context), coated = alone(context, "", "", Relation::above, {});
     const Scene &scene = glass.scene;
@@ -258,11 +237,11 @@ std::vector<ScopeNumber> scope(const ClaimContext &context, const ScopeSettings 
         const Expected row = expected_row(glass, quantity);
         const bool at_centre = quantity == through_centre;
         numbers.push_back({quantity, "", row.value, total(row.budget), margin_is_tolerance,
-                           at_centre ? light_bounds(scene, orb, settings, leg, centre)
-                                     : light_bounds(scene, orb, settings, leg, ring)});
+                           at_centre ? of_light(scene, orb, settings, leg, centre)
+                                     : of_light(scene, orb, settings, leg, ring)});
     }
     const double here = ratio(orb, {}, Vec2(0));
-    EffectBounds of_ratio = light_bounds(scene, orb, settings, leg, ratio);
+    EffectBounds of_ratio = of_light(scene, orb, settings, leg, ratio);
     const double truth = carried([&](const LightModel &m) { return ring(orb, m, Vec2(0)); }) /
                          carried([&](const LightModel &m) { return centre(orb, m, Vec2(0)); });
     of_ratio.polarisation = {std::abs(truth - here),

@@ -38,20 +38,12 @@ ScopeNumber break_scope(const ClaimContext &context, const ScopeSettings &settin
         keep_greater(birefringence, index.birefringence);
         keep_greater(pupil, aside);
     }
-    const LitBounds lit = nothing_is_lit(fold_setup(context, "", "", {}, fixed).scene);
     return {quantity,
             "mm",
             greatest,
             margin_to(greatest, {here.criterion_mm}),
             margin_words({here.criterion_mm}, "mm"),
-            {.polarisation = directions_know_no_polarisation(),
-             .dispersion = dispersion,
-             .absorption = directions_know_no_absorption(),
-             .birefringence = birefringence,
-             .light_size = lit.light_size,
-             .caustics = lit.caustics,
-             .interreflection = lit.interreflection,
-             .pupil = pupil}};
+            of_directions(fold_setup(context, "", "", {}, fixed).scene, {dispersion, birefringence}, pupil)};
 }
 
 } // namespace threefold

@@ -186,6 +186,38 @@ Bound directions_know_no_absorption() {
     return Bound::none("it is read from where rays go, not from how much light they carry");
 }
 
+EffectBounds of_directions(const Scene &scene, const IndexBounds &index, const Bound &pupil) {
+    const LitBounds lit = nothing_is_lit(scene);
+    return {.polarisation = directions_know_no_polarisation(),
+            .dispersion = index.dispersion,
+            .absorption = directions_know_no_absorption(),
+            .birefringence = index.birefringence,
+            .light_size = lit.light_size,
+            .caustics = lit.caustics,
+            .interreflection = lit.interreflection,
+            .pupil = pupil};
+}
+
+EffectBounds of_light(const Scene &scene, const OrbInScene &orb, const ScopeSettings &settings, double glass_mm,
+                      const std::function<double(const OrbInScene &, const LightModel &, Vec2)> &number) {
+    const auto by_model = [&](const LightModel &model) { return number(orb, model, Vec2(0)); };
+    const IndexBounds index = by_index(orb.optics.index, settings, [&](double n) {
+        OrbInScene changed = orb;
+        changed.optics.index = n;
+        return number(changed, {}, Vec2(0));
+    });
+    const Bound polarisation = by_polarisation(by_model);
+    const LitBounds lit = nothing_is_lit(scene);
+    return {.polarisation = polarisation,
+            .dispersion = index.dispersion,
+            .absorption = by_absorption(settings, by_model),
+            .birefringence = with_exchange(index.birefringence, settings, glass_mm, polarisation.value),
+            .light_size = lit.light_size,
+            .caustics = lit.caustics,
+            .interreflection = lit.interreflection,
+            .pupil = by_pupil(settings, [&](Vec2 aside) { return number(orb, {}, aside); })};
+}
+
 double margin_to(double value, Threshold threshold) { return std::abs(value - threshold.at); }
 
 std::string margin_words(Threshold threshold, const std::string &unit) {

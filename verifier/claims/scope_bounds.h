@@ -59,6 +59,13 @@ EffectBounds none_of_them(const std::string &why);
 Bound directions_know_no_polarisation();
 Bound directions_know_no_absorption();
 
+/// Of a number about directions and places, in a scene where nothing is lit.
+EffectBounds of_directions(const Scene &scene, const IndexBounds &index, const Bound &pupil);
+/// Of a share of light, in a scene where nothing is lit: `number` is asked for other orbs in the same place of the film,
+/// for other models of light, and for pinholes beside the eye. `glass_mm`: with_exchange.
+EffectBounds of_light(const Scene &scene, const OrbInScene &orb, const ScopeSettings &settings, double glass_mm,
+                      const std::function<double(const OrbInScene &, const LightModel &, Vec2 aside_mm)> &number);
+
 /// A conclusion that a number lies on one side of a threshold.
 struct Threshold {
     double at;

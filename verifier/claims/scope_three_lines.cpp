@@ -27,19 +27,15 @@ EffectBounds line_bounds(const Experiment &e, const LinesAsked &asked, const Sof
         view.orb.optics.index = n;
         return jump(view, e.scene.camera, Vec2(0));
     });
-    const LitBounds lit = nothing_is_lit(e.scene);
     const bool has_eye = e.scene.camera.projection == Projection::perspective;
     const char *alike = "on a circle all rays have the same impact parameter and lose the same share of light: the "
                         "line's centre of darkness stays where refraction puts it";
-    return {.polarisation = Bound::none(alike),
-            .dispersion = index.dispersion,
-            .absorption = Bound::none(alike),
-            .birefringence = index.birefringence,
-            .light_size = lit.light_size,
-            .caustics = lit.caustics,
-            .interreflection = lit.interreflection,
-            .pupil = has_eye ? by_pupil(settings, [&](Vec2 aside) { return jump(asked.view, e.scene.camera, aside); })
-                             : Bound::none("the view is orthographic: it has no eye, and so no pupil")};
+    EffectBounds bounds = of_directions(
+        e.scene, index,
+        has_eye ? by_pupil(settings, [&](Vec2 aside) { return jump(asked.view, e.scene.camera, aside); })
+                : Bound::none("the view is orthographic: it has no eye, and so no pupil"));
+    bounds.polarisation = bounds.absorption = Bound::none(alike);
+    return bounds;
 }
 
 } // namespace

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "verifier/report/json_value.h"
 #include "verifier/report/text.h"
 
 namespace threefold {
@@ -21,8 +22,6 @@ using Json = nlohmann::ordered_json;
 Json text(std::string_view value) { return valid_utf8(value); }
 
 Json text_or_null(std::string_view value) { return value.empty() ? Json(nullptr) : text(value); }
-
-Json real(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 template <class T>
 Json or_null(const std::optional<T> &value) {

@@ -8,27 +8,16 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "verifier/report/json_value.h"
+#include "verifier/report/table.h"
+
 namespace threefold {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Table = std::vector<std::vector<std::string>>;
-
-std::string markdown(const Table &table) {
-    std::vector<std::size_t> widths(table.front().size(), 3);
-    for (const auto &row : table)
-        for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], row[k].size());
-    std::string out;
-    for (const auto &row : table) {
-        for (std::size_t k = 0; k < row.size(); ++k) out += fmt::format("| {:<{}} ", row[k], widths[k]);
-        out += "|\n";
-        if (&row != &table.front()) continue;
-        for (const std::size_t width : widths) out += fmt::format("|{:-<{}}", "", width + 2);
-        out += "|\n";
-    }
-    return out;
-}
+using report::markdown;
+using report::Table;
 
 std::string cell(const ExtremeFinding &f) {
     switch (f.standing) {
@@ -95,7 +84,7 @@ std::string reach(const ExtremesResult &result, const ExtremeSweepResult &sweep,
 }
 
 Json to_json(const ExtremeFinding &f) {
-    const auto real = [](double value) { return std::isfinite(value) ? Json(value) : Json(); };
+    using report::real;
     return {{"standing", to_string(f.standing)},
             {"pixels", {{"judged", f.judged}, {"unresolved", f.unresolved}, {"wrong", f.wrong}, {"forgiven", f.forgiven}}},
             {"worst_error", real(f.worst)},
@@ -127,8 +116,7 @@ std::string conclusion(const ExtremesResult &result) {
 }
 
 Json to_json(const ExtremesResult &result) {
-    Json versions = Json::object(), columns = Json::array(), sweeps = Json::array();
-    for (const auto &[name, version] : result.versions) versions[name] = version;
+    Json columns = Json::array(), sweeps = Json::array();
     for (const ExtremeColumn &c : result.columns) columns.push_back({{"name", c.name}, {"title", c.title}});
     for (const ExtremeSweepResult &sweep : result.sweeps) {
         Json rows = Json::array();
@@ -154,7 +142,7 @@ Json to_json(const ExtremesResult &result) {
             {"threefold_version", result.threefold_version},
             {"command", result.command},
             {"started", result.started},
-            {"versions", versions},
+            {"versions", report::object(result.versions)},
             {"quick", result.quick},
             {"verdict", faults.empty() ? "holds" : "fails"},
             {"summary", conclusion(result)},
@@ -165,7 +153,7 @@ Json to_json(const ExtremesResult &result) {
               {"double_floor_radii", double_floor},
               {"float_floor_radii", float_floor},
               {"roundings", roundings}}},
-            {"quad_disagreement_radii", std::isfinite(result.disagreement) ? Json(result.disagreement) : Json()},
+            {"quad_disagreement_radii", report::real(result.disagreement)},
             {"columns", columns},
             {"sweeps", sweeps},
             {"seconds", result.seconds}};

@@ -7,27 +7,16 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "verifier/report/json_value.h"
+#include "verifier/report/table.h"
+
 namespace threefold {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Table = std::vector<std::vector<std::string>>;
-
-std::string markdown(const Table &table) {
-    std::vector<std::size_t> widths(table.front().size(), 3);
-    for (const auto &row : table)
-        for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], row[k].size());
-    std::string out;
-    for (const auto &row : table) {
-        for (std::size_t k = 0; k < row.size(); ++k) out += fmt::format("| {:<{}} ", row[k], widths[k]);
-        out += "|\n";
-        if (&row != &table.front()) continue;
-        for (const std::size_t width : widths) out += fmt::format("|{:-<{}}", "", width + 2);
-        out += "|\n";
-    }
-    return out;
-}
+using report::markdown;
+using report::Table;
 
 /// The size as a person says it: "0.21 %", "0.04 px", "power 1 + 0.01", "17".
 std::string size_text(const FaultEntry &entry, double size) {
@@ -90,7 +79,7 @@ std::string conclusion(const PowerResult &result) {
 }
 
 Json to_json(const ImageJudgement &j) {
-    return {{"caught", j.fails}, {"value", std::isfinite(j.value) ? Json(j.value) : Json()}, {"limit", j.limit}};
+    return {{"caught", j.fails}, {"value", report::real(j.value)}, {"limit", j.limit}};
 }
 
 Json to_json(const PowerRow &row) {
@@ -122,8 +111,7 @@ Json to_json(const PowerRow &row) {
 } // namespace
 
 Json to_json(const PowerResult &result) {
-    Json versions = Json::object(), rows = Json::array();
-    for (const auto &[name, version] : result.versions) versions[name] = version;
+    Json rows = Json::array();
     for (const PowerRow &row : result.rows) rows.push_back(to_json(row));
     const FalseAlarms &f = result.false_alarms;
     return {{"schema", "threefold power"},
@@ -131,7 +119,7 @@ Json to_json(const PowerResult &result) {
             {"threefold_version", result.threefold_version},
             {"command", result.command},
             {"started", result.started},
-            {"versions", versions},
+            {"versions", report::object(result.versions)},
             {"faulty", result.faulty},
             {"witnesses", result.witnesses},
             {"claims", result.claims},

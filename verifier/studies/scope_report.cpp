@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "verifier/report/json_value.h"
+
 namespace threefold {
 
 namespace {
@@ -90,7 +92,7 @@ std::string settings_text(const ScopeSettings &s) {
                        s.calcite_abbe_extraordinary);
 }
 
-Json real(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+using report::real;
 
 Json to_json(const ScopeNumber &n) {
     Json bounds = Json::array();

@@ -7,7 +7,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "verifier/report/json_value.h"
 #include "verifier/report/numbers.h"
+#include "verifier/report/table.h"
 #include "verifier/report/text.h"
 
 namespace threefold {
@@ -15,22 +17,8 @@ namespace threefold {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Table = std::vector<std::vector<std::string>>;
-
-std::string markdown(const Table &table) {
-    std::vector<std::size_t> widths(table.front().size(), 3);
-    for (const auto &row : table)
-        for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], row[k].size());
-    std::string out;
-    for (const auto &row : table) {
-        for (std::size_t k = 0; k < row.size(); ++k) out += fmt::format("| {:<{}} ", row[k], widths[k]);
-        out += "|\n";
-        if (&row != &table.front()) continue;
-        for (const std::size_t width : widths) out += fmt::format("|{:-<{}}", "", width + 2);
-        out += "|\n";
-    }
-    return out;
-}
+using report::markdown;
+using report::Table;
 
 /// A root with its uncertainty; where it does not stand out of it, what it is under.
 std::string root_text(const Square &s) {
@@ -40,8 +28,7 @@ std::string root_text(const Square &s) {
 
 std::string seconds_text(double s) { return s <= 0 ? "-" : fmt::format("{:.3g}", s); }
 
-Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(); }
-Json to_json(const Square &s) { return {{"value", finite(s.value)}, {"standard_error", finite(s.standard_error)}}; }
+Json to_json(const Square &s) { return {{"value", report::real(s.value)}, {"standard_error", report::real(s.standard_error)}}; }
 Json to_json(const RunCost &c) {
     return {{"own_cpu_s", c.own_cpu_s},
             {"process_cpu_s", c.process_cpu_s},
@@ -151,9 +138,8 @@ std::string to_csv(const TradeResult &result) {
 }
 
 Json to_json(const TradeResult &result) {
-    Json versions = Json::object(), parameters = Json::object(), rows = Json::array(), choices = Json::array(),
+    Json parameters = Json::object(), rows = Json::array(), choices = Json::array(),
          laws = Json::array();
-    for (const auto &[name, version] : result.versions) versions[name] = version;
     for (const auto &[name, value] : result.parameters) parameters[name] = report::valid_utf8(value);
     for (const TradeRow &r : result.rows) {
         const auto &k = r.knobs;
@@ -172,11 +158,11 @@ Json to_json(const TradeResult &result) {
                         {"mse", to_json(r.error.mse)},
                         {"variance", to_json(r.error.variance)},
                         {"bias2", to_json(r.error.bias2)},
-                        {"tile_mse", finite(r.error.tile_mse)},
+                        {"tile_mse", report::real(r.error.tile_mse)},
                         {"quantisation", r.quantisation},
                         {"difference2", r.difference ? to_json(*r.difference) : Json()},
                         {"difference_from", r.difference_from},
-                        {"efficiency", finite(r.efficiency())},
+                        {"efficiency", report::real(r.efficiency())},
                         {"on_front", r.on_front},
                         {"on_process_front", r.on_process_front}});
     }
@@ -193,7 +179,7 @@ Json to_json(const TradeResult &result) {
                            {"met", c.met},
                            {"rendered", c.rendered},
                            {"tried", c.tried},
-                           {"predicted_error", finite(c.predicted)},
+                           {"predicted_error", report::real(c.predicted)},
                            {"measured_mse", c.rendered ? to_json(c.measured) : Json()},
                            {"measured_bias", c.rendered ? Json(c.bias) : Json()},
                            {"cost", to_json(c.cost)},
@@ -203,7 +189,7 @@ Json to_json(const TradeResult &result) {
             {"threefold_version", result.threefold_version},
             {"command", report::valid_utf8(result.command)},
             {"started", result.started},
-            {"versions", versions},
+            {"versions", report::object(result.versions)},
             {"scene", report::valid_utf8(result.scene)},
             {"scene_hash", result.scene_hash},
             {"parameters", parameters},
