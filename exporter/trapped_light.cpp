@@ -4,30 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include <glm/geometric.hpp>
 
+#include "scenes/access.h"
 #include "scenes/camera.h"
 
 namespace threefold {
 namespace {
-
-struct Orb {
-    Vec3 centre_mm;
-    double outer_mm, inner_mm; ///< inner 0: solid
-    Glass glass;
-};
-
-std::optional<Orb> orb_of(const Shape &shape) {
-    using Result = std::optional<Orb>;
-    return std::visit(overloaded{[](const GlassBall &b) { return Result({b.centre_mm, b.radius_mm, 0, b.glass}); },
-                                 [](const GlassShell &s) {
-                                     return Result({s.centre_mm, s.outer_radius_mm, s.inner_radius_mm(), s.glass});
-                                 },
-                                 [](const Quad &) { return Result(); }, [](const Mesh &) { return Result(); }},
-                      shape);
-}
 
 /// Reflected share at a sphere, from the sines on both sides; all beyond the critical angle.
 double reflected(double index, double sine_air, double sine_glass) {
@@ -38,11 +22,12 @@ double reflected(double index, double sine_air, double sine_glass) {
     return (s * s + p * p) / 2;
 }
 
-double left_inside(const Orb &orb, double impact_mm, int most_interfaces) {
-    const double n = orb.glass.index, tau = orb.glass.interface_transmittance;
-    const double outer = reflected(n, impact_mm / orb.outer_mm, impact_mm / orb.outer_mm / n);
+/// `inner_mm`: 0 for a solid orb.
+double left_inside(const Glass &made_of, double outer_mm, double inner_mm, double impact_mm, int most_interfaces) {
+    const double n = made_of.index, tau = made_of.interface_transmittance;
+    const double outer = reflected(n, impact_mm / outer_mm, impact_mm / outer_mm / n);
     double inward = (1 - outer) * tau, outward = 0, hollow = 0; // what has left each surface, and where to
-    const double inner_sine = orb.inner_mm > 0 ? impact_mm / n / orb.inner_mm : 2;
+    const double inner_sine = inner_mm > 0 ? impact_mm / n / inner_mm : 2;
     if (inner_sine >= 1) return inward * std::pow(outer, std::max(most_interfaces - 2, 0));
     const double inner = reflected(n, inner_sine * n, inner_sine);
     for (int met = 1; met < most_interfaces - 1; ++met) { // what leaves at the last one is lost too
@@ -70,14 +55,16 @@ double trapped_light(const Scene &scene, int most_interfaces) {
                                           (row + 0.5) * camera.image_height_px() / rows));
             double nearest = std::numeric_limits<double>::infinity(), left = 0;
             for (const Object &object : scene.objects) {
-                const auto orb = orb_of(object.shape);
-                if (!orb || orb->glass.coating == Coating::antireflective) continue;
+                const auto orb = outer_sphere(object.shape);
+                if (!orb || glass_of(object.shape)->coating == Coating::antireflective) continue;
                 const Vec3 to_centre = orb->centre_mm - ray.origin_mm;
                 const double along = glm::dot(to_centre, ray.direction);
                 const double impact_mm = glm::length(along * ray.direction - to_centre);
-                if (along <= 0 || along >= nearest || impact_mm >= orb->outer_mm) continue;
+                if (along <= 0 || along >= nearest || impact_mm >= orb->radius_mm) continue;
                 nearest = along;
-                left = left_inside(*orb, impact_mm, most_interfaces);
+                const GlassShell *shell = std::get_if<GlassShell>(&object.shape);
+                left = left_inside(*glass_of(object.shape), orb->radius_mm, shell ? shell->inner_radius_mm() : 0, impact_mm,
+                                   most_interfaces);
             }
             sum += left;
         }

@@ -9,6 +9,7 @@
 #include "exporter/temporary_folder.h"
 #include "scenes/catalogue/catalogue.h"
 #include "scenes/error.h"
+#include "verifier/measure/radiance.h"
 #include "verifier/studies/trade.h"
 #include "verifier/studies/trade_choice.h"
 #include "verifier/studies/trade_report.h"

@@ -31,11 +31,6 @@ double root_mean_square(const Image &a, const Image &b) {
     return std::sqrt(sum / static_cast<double>(a.pixels.size()));
 }
 
-double mean_radiance(const Image &image) {
-    const Rgb m = rectangle_mean(image, 0, 0, image.width, image.height);
-    return (m.r + m.g + m.b) / 3;
-}
-
 } // namespace
 
 Exit command_compare(const Shop &shop, const CompareRequest &request) {

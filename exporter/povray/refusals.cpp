@@ -19,24 +19,6 @@ bool is_diffuse(const Surface &surface) {
                       surface);
 }
 
-struct Orb {
-    Vec3 centre_mm;
-    double radius_mm;
-    Glass glass;
-};
-
-std::optional<Orb> orb_of(const Shape &shape) {
-    return std::visit(overloaded{[](const GlassBall &ball) {
-                                     return std::optional(Orb{ball.centre_mm, ball.radius_mm, ball.glass});
-                                 },
-                                 [](const GlassShell &shell) {
-                                     return std::optional(Orb{shell.centre_mm, shell.outer_radius_mm, shell.glass});
-                                 },
-                                 [](const Quad &) { return std::optional<Orb>(); },
-                                 [](const Mesh &) { return std::optional<Orb>(); }},
-                      shape);
-}
-
 } // namespace
 
 void refuse_what_cannot_be_said(const RenderJob &job) {
@@ -49,14 +31,15 @@ void refuse_what_cannot_be_said(const RenderJob &job) {
     for (const Object &object : scene.objects) {
         if (const Surface *surface = surface_of(object.shape))
             if (!diffuse && is_diffuse(*surface)) diffuse = &object;
-        const std::optional<Orb> orb = orb_of(object.shape);
+        const std::optional<Sphere> orb = outer_sphere(object.shape);
         if (!orb) continue;
+        const Glass &made_of = *glass_of(object.shape);
         glass = &object;
         // POV-Ray looks for total reflection only where it would also follow transmitted light.
-        if (orb->glass.coating == Coating::antireflective && orb->glass.interface_transmittance <= job.cut_weight &&
+        if (made_of.coating == Coating::antireflective && made_of.interface_transmittance <= job.cut_weight &&
             glm::distance(scene.camera.eye_mm, orb->centre_mm) <= orb->radius_mm)
             refuse(fmt::format("total reflection inside {} whose interfaces transmit {} cannot be seen from inside it",
-                               quoted(object.name), orb->glass.interface_transmittance));
+                               quoted(object.name), made_of.interface_transmittance));
     }
     if (!diffuse) return;
     if (scene.environment && !is_black(scene.environment->radiance) && scene.environment->dome_directions == 0)

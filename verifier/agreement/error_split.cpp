@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "scenes/error.h"
+#include "verifier/measure/radiance.h"
 
 namespace threefold {
 
@@ -56,10 +57,7 @@ Image tiles_of(const Image &image) {
         for (int column = 0; column < tiles.width; ++column) {
             const int right = std::min(image.width, (column + 1) * tile_px);
             const int bottom = std::min(image.height, (row + 1) * tile_px);
-            Rgb sum(0);
-            for (int y = row * tile_px; y < bottom; ++y)
-                for (int x = column * tile_px; x < right; ++x) sum += image.at(x, y);
-            tiles.at(column, row) = sum / double((right - column * tile_px) * (bottom - row * tile_px));
+            tiles.at(column, row) = rectangle_mean(image, column * tile_px, row * tile_px, right, bottom);
         }
     return tiles;
 }
@@ -81,12 +79,6 @@ void require_runs(std::span<const Image> runs, const Image &reference) {
 }
 
 } // namespace
-
-double mean_radiance(const Image &image) {
-    double sum = 0;
-    for (const Rgb &pixel : image.pixels) sum += pixel.r + pixel.g + pixel.b;
-    return sum / (3 * static_cast<double>(image.pixels.size()));
-}
 
 ReferencePicture exact_reference(Image picture) {
     ReferencePicture reference;

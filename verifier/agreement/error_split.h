@@ -55,7 +55,6 @@ Square paired_bias2(std::span<const Image> a, std::span<const Image> b, double m
 Square error2_of_mean(std::span<const Image> runs, const ReferencePicture &reference);
 /// Of that, what noise adds, told by the spread alone: no reference is needed.
 double noise2_of_mean(std::span<const Image> runs, double mean_radiance);
-double mean_radiance(const Image &image);
 
 /// variance(n) = factor * n^-rate, n samples a pixel.
 struct NoiseLaw {

@@ -68,11 +68,6 @@ TileComparison judge_tiles(int columns, int rows, int tile_px, double tolerance,
     return c;
 }
 
-double mean_radiance(const Image &image) {
-    const Rgb m = rectangle_mean(image, 0, 0, image.width, image.height);
-    return (m.r + m.g + m.b) / 3;
-}
-
 } // namespace
 
 TileComparison compare_tiles(const std::vector<Image> &a, const std::vector<Image> &b, int tile_px, double tolerance,

@@ -170,7 +170,8 @@ private:
             }
             if (request_.on_progress)
                 request_.on_progress(answer.witness->name, finished_[answer.witness->name] / experiments_, e.name);
-            heard.push_back({answer.witness, *std::move(answer.rendered), seed_of(*answer.witness)});
+            heard.push_back({answer.witness, *std::move(answer.rendered), seed_of(*answer.witness),
+                             answer.samples_per_pixel});
         }
         result_.renderer_seconds += at_once ? longest : all;
         return heard;
@@ -186,6 +187,8 @@ private:
             Experiment longer = e;
             longer.replicates = wanted;
             Question question = question_for(*t.witness, longer, e.name + "-more");
+            question.noise.reset(); // a pilot has spoken
+            question.job.samples_per_pixel = t.samples_per_pixel;
             question.job.replicates.erase(question.job.replicates.begin(),
                                           question.job.replicates.begin() + e.replicates);
             questions.push_back(std::move(question));

@@ -17,9 +17,10 @@ std::vector<Answer> hear(std::vector<Question> questions, bool at_once) {
                 tell(share);
             };
         answers.push_back(std::async(at_once ? std::launch::async : std::launch::deferred, [&q] {
-            Answer answer{q.witness, std::nullopt, nullptr};
+            Answer answer{q.witness, std::nullopt, nullptr, 0};
             try {
                 if (q.noise) q.job.samples_per_pixel = samples_for_noise(*q.witness, q.job, *q.noise, q.options);
+                answer.samples_per_pixel = q.job.samples_per_pixel;
                 answer.rendered = render(*q.witness, std::move(q.job), q.options);
             } catch (...) {
                 answer.failure = std::current_exception();

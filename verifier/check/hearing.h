@@ -23,6 +23,7 @@ struct Answer {
     const Witness *witness;
     std::optional<Rendered> rendered;
     std::exception_ptr failure; ///< set where there is no picture
+    int samples_per_pixel = 0;  ///< that the pictures were asked with
 };
 
 /// One answer a question, in their order, once all have ended. `at_once`: side by side, else one after the other.

@@ -16,7 +16,8 @@ namespace threefold {
 struct Testimony {
     const Witness *witness;
     Rendered rendered;
-    std::uint64_t seed; ///< of all its replicates
+    std::uint64_t seed;    ///< of all its replicates
+    int samples_per_pixel; ///< in each of them
 };
 
 /// Everything but the measurement and the verdict.

@@ -28,6 +28,11 @@ Rgb rectangle_mean(const Image &image, int left, int top, int right, int bottom)
     return sum / (static_cast<double>(right - left) * (bottom - top));
 }
 
+double mean_radiance(const Image &image) {
+    const Rgb m = rectangle_mean(image, 0, 0, image.width, image.height);
+    return (m.r + m.g + m.b) / 3;
+}
+
 Image tile_means(const Image &image, int tile_px) {
     const int columns = std::max(1, image.width / tile_px), rows = std::max(1, image.height / tile_px);
     Image tiles(columns, rows);

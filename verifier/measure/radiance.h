@@ -17,6 +17,9 @@ std::vector<double> ring_means(const Image &image, int rings, const std::functio
 /// Mean over the pixels [left, right) x [top, bottom).
 Rgb rectangle_mean(const Image &image, int left, int top, int right, int bottom);
 
+/// Over all pixels and channels.
+double mean_radiance(const Image &image);
+
 /// Means of whole `tile_px` x `tile_px` tiles; what is left over at the right and below joins the last tile.
 Image tile_means(const Image &image, int tile_px);
 

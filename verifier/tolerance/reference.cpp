@@ -12,6 +12,7 @@
 #include <tbb/parallel_for.h>
 
 #include "exporter/process/child.h"
+#include "scenes/access.h"
 #include "scenes/error.h"
 #include "scenes/texture.h"
 #include "verifier/claims/orb_light.h"
@@ -24,16 +25,10 @@ namespace threefold {
 
 namespace {
 
-const Glass *glass_in(const Shape &shape) {
-    if (const GlassBall *ball = std::get_if<GlassBall>(&shape)) return &ball->glass;
-    if (const GlassShell *shell = std::get_if<GlassShell>(&shape)) return &shell->glass;
-    return nullptr;
-}
-
 /// Glass alone, which neither takes nor gives light, in uniform surroundings.
 bool is_furnace(const Scene &scene) {
     return scene.environment && std::ranges::all_of(scene.objects, [](const Object &object) {
-               const Glass *glass = glass_in(object.shape);
+               const Glass *glass = glass_of(object.shape);
                return glass && glass->interface_transmittance == 1;
            });
 }
@@ -42,7 +37,7 @@ bool is_furnace(const Scene &scene) {
 bool is_single_path(const Scene &scene) {
     int orbs = 0;
     for (const Object &object : scene.objects) {
-        if (const Glass *glass = glass_in(object.shape)) {
+        if (const Glass *glass = glass_of(object.shape)) {
             ++orbs;
             if (glass->coating != Coating::antireflective) return false;
             continue;
@@ -110,7 +105,7 @@ Rgb single_path(const Scene &scene, const std::optional<OrbInScene> &orb, const 
 
 Image single_path_picture(const Scene &scene, int samples, std::uint64_t seed) {
     const bool has_orb =
-        std::ranges::any_of(scene.objects, [](const Object &o) { return glass_in(o.shape) != nullptr; });
+        std::ranges::any_of(scene.objects, [](const Object &o) { return glass_of(o.shape) != nullptr; });
     const std::optional<OrbInScene> orb = has_orb ? std::optional(orb_of(scene)) : std::nullopt;
     const Film film(scene.camera);
     Image image(scene.camera.image_width_px(), scene.camera.image_height_px());

@@ -8,6 +8,7 @@
 
 #include "scenes/error.h"
 #include "scenes/validate.h"
+#include "verifier/measure/radiance.h"
 #include "verifier/tolerance/reference.h"
 #include "verifier/tracer/sampler.h"
 
