@@ -5,10 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include <glm/geometric.hpp>
-
+#include "exporter/sample_rays.h"
 #include "scenes/access.h"
-#include "scenes/camera.h"
 
 namespace threefold {
 namespace {
@@ -43,32 +41,23 @@ double left_inside(const Glass &made_of, double outer_mm, double inner_mm, doubl
 } // namespace
 
 double trapped_light(const Scene &scene, int most_interfaces) {
-    constexpr int most_a_side = 48;
-    const Camera &camera = scene.camera;
-    const int columns = std::min(camera.image_width_px(), most_a_side),
-              rows = std::min(camera.image_height_px(), most_a_side);
-    const Film film(camera);
     double sum = 0;
-    for (int row = 0; row < rows; ++row)
-        for (int column = 0; column < columns; ++column) {
-            const Ray ray = film.ray(Vec2((column + 0.5) * camera.image_width_px() / columns,
-                                          (row + 0.5) * camera.image_height_px() / rows));
-            double nearest = std::numeric_limits<double>::infinity(), left = 0;
-            for (const Object &object : scene.objects) {
-                const auto orb = outer_sphere(object.shape);
-                if (!orb || glass_of(object.shape)->coating == Coating::antireflective) continue;
-                const Vec3 to_centre = orb->centre_mm - ray.origin_mm;
-                const double along = glm::dot(to_centre, ray.direction);
-                const double impact_mm = glm::length(along * ray.direction - to_centre);
-                if (along <= 0 || along >= nearest || impact_mm >= orb->radius_mm) continue;
-                nearest = along;
-                const GlassShell *shell = std::get_if<GlassShell>(&object.shape);
-                left = left_inside(*glass_of(object.shape), orb->radius_mm, shell ? shell->inner_radius_mm() : 0, impact_mm,
-                                   most_interfaces);
-            }
-            sum += left;
+    const std::vector<Ray> rays = sample_rays(scene.camera);
+    for (const Ray &ray : rays) {
+        double nearest = std::numeric_limits<double>::infinity(), left = 0;
+        for (const Object &object : scene.objects) {
+            const auto orb = outer_sphere(object.shape);
+            if (!orb || glass_of(object.shape)->coating == Coating::antireflective) continue;
+            const Passing passing = pass(ray, orb->centre_mm);
+            if (passing.along_mm <= 0 || passing.along_mm >= nearest || passing.impact_mm >= orb->radius_mm) continue;
+            nearest = passing.along_mm;
+            const GlassShell *shell = std::get_if<GlassShell>(&object.shape);
+            left = left_inside(*glass_of(object.shape), orb->radius_mm, shell ? shell->inner_radius_mm() : 0,
+                               passing.impact_mm, most_interfaces);
         }
-    return sum / (columns * rows);
+        sum += left;
+    }
+    return sum / static_cast<double>(rays.size());
 }
 
 } // namespace threefold

@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "exporter/blender/grazing.h"
 #include "exporter/blender/icosphere.h"
 #include "exporter/files.h"
 #include "scenes/error.h"
@@ -214,6 +215,39 @@ TEST(Icosphere, stays_as_near_to_the_sphere_as_it_says) {
     }
     EXPECT_EQ(coarsest_icosphere(1e-3 / 68)->level, 7);
     EXPECT_FALSE(coarsest_icosphere(1e-7));
+}
+
+// A camera along an axis has its middle row of pixels in such a plane.
+TEST(Icosphere, has_no_edge_in_a_plane_of_two_axes) {
+    const Icosphere sphere = make_icosphere(5);
+    for (const glm::uvec3 &t : sphere.triangles)
+        for (int corner = 0; corner < 3; ++corner)
+            for (int axis = 0; axis < 3; ++axis) {
+                const double a = sphere.vertices[t[corner]][axis], b = sphere.vertices[t[(corner + 1) % 3]][axis];
+                EXPECT_GT(std::max(std::abs(a), std::abs(b)), 1e-5);
+            }
+}
+
+TEST(Grazing, is_told_by_the_share_of_rays_and_refused) {
+    RenderJob job;
+    job.scene.objects = {{"orb", GlassBall{Vec3(0), 68, {}}}};
+    job.scene.environment = Environment{Rgb(1)};
+    Camera &c = job.scene.camera;
+    c.projection = Projection::orthographic;
+    c.width_px = c.height_px = 10;
+    const auto look_at = [&](double from_mm, double to_mm) {
+        c.eye_mm = {(from_mm + to_mm) / 2, 0, 900};
+        c.target_mm = {(from_mm + to_mm) / 2, 0, 0};
+        c.orthographic_width_mm = to_mm - from_mm;
+    };
+    EXPECT_DOUBLE_EQ(grazing_mm(68, 1e-3), 0.0108);
+    // Of ten columns the band to either side of the edge holds six.
+    look_at(68 - 0.02, 68 + 0.02);
+    EXPECT_NEAR(grazing_share(job.scene, 1e-3), 0.6, 1e-12);
+    EXPECT_THROW(compile_cycles(job), Error);
+    look_at(68 - 0.06, 68 - 0.02);
+    EXPECT_EQ(grazing_share(job.scene, 1e-3), 0);
+    EXPECT_NO_THROW(compile_cycles(job));
 }
 
 TEST(CyclesLog, tells_the_share_done) {

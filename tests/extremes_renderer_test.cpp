@@ -16,7 +16,7 @@ TEST(ExtremesRenderer, NothingThatIsExportedIsWrongAndAWallOfAMicrometreIsRight)
     request.witnesses = find_witnesses({"povray", "cycles"});
     std::erase_if(request.witnesses, [](const Witness &w) { return !w.present(); });
     if (request.witnesses.empty()) GTEST_SKIP() << "neither POV-Ray nor Blender is installed";
-    request.sweeps = {"wall", "eye-near"};
+    request.sweeps = {"wall", "eye-near", "grazing-solid", "reflections-solid"};
     request.quick = true;
     request.folder = folder.path();
     const ExtremesResult result = study_extremes(request);

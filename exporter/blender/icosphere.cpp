@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include <glm/geometric.hpp>
+#include <glm/ext/matrix_transform.hpp>
 
 namespace threefold {
 
@@ -19,7 +20,9 @@ Icosphere icosahedron() {
     Icosphere ico;
     ico.vertices = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
                     {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
-    for (Vec3 &v : ico.vertices) v = glm::normalize(v);
+    // Any turn that no symmetry of the solid, no axis and no diagonal comes back to.
+    const glm::dmat3 turn(glm::rotate(glm::dmat4(1), 1.0, Vec3(0.36, 0.48, 0.8)));
+    for (Vec3 &v : ico.vertices) v = turn * glm::normalize(v);
     ico.triangles = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
                      {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
                      {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};

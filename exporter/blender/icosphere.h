@@ -10,6 +10,8 @@
 namespace threefold {
 
 /// Level 0 is the icosahedron; each level splits every triangle in four and puts the new vertices on the sphere.
+/// It stands askew: in the usual pose whole rings of edges lie in the planes between the axes, just where a camera that
+/// looks along an axis has a row of pixels, and a ray along an edge may slip through between its two triangles.
 struct Icosphere {
     std::vector<Vec3> vertices;        ///< at distance 1
     std::vector<glm::uvec3> triangles; ///< anticlockwise seen from outside

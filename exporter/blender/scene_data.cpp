@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
+#include "exporter/blender/grazing.h"
 #include "exporter/blender/objects.h"
 #include "exporter/blender/to_blender.h"
 #include "exporter/trapped_light.h"
@@ -243,6 +244,11 @@ CyclesScene describe_for_cycles(const RenderJob &job) {
         refuse_for_cycles(fmt::format("{:.3g} of the picture's light meets more than {} surfaces of glass, where its "
                                       "paths end, and would be lost; at most {:g} may be",
                                       made.accuracy.trapped_light, deepest_path, most_trapped_light),
+                          "show more than the outermost rim, or use the tracer");
+    if (const double grazing = grazing_share(scene, objects.surface_mm); grazing > most_grazing)
+        refuse_for_cycles(fmt::format("{:.3g} of the picture's rays graze an orb, passing its edge nearer than 1e-4 of its "
+                                      "radius and four times what its mesh strays, and go astray; at most {:g} may be",
+                                      grazing, most_grazing),
                           "show more than the outermost rim, or use the tracer");
     made.data = {{"name", scene.name},
                           {"unit_mm", unit_mm},
