@@ -157,7 +157,7 @@ Specs three_lines_orb_parameters(bool hollow) {
     return join(
         {specs,
          {both("eye.distance_mm", "eye to orb centre", 900, tiny_mm, huge_mm),
-          both("eye.acuity_arcmin", "the least break, in minutes of arc, that counts as noticeable", 1, 1e-6, 1e4)},
+          both("criterion.acuity_arcmin", "the least break, in minutes of arc, that counts as noticeable", 1, 1e-6, 1e4)},
          environment_parameters(1)});
 }
 

@@ -44,7 +44,7 @@ LinesAsked asked_of(const Experiment &e) {
                        {"middle line", 1, {0, half_width, {}}},
                        {"lower line", 2, {-apart, half_width, {}}}};
     }
-    asked.acuity_arcmin = number_of(e, "eye.acuity_arcmin");
+    asked.acuity_arcmin = number_of(e, "criterion.acuity_arcmin");
     const Camera &camera = e.scene.camera;
     const double away = camera.projection == Projection::orthographic ? 1 : asked.view.plane_distance_mm(camera);
     asked.picture_px_mm = 2 * film_half_width(camera) / camera.width_px * away;
