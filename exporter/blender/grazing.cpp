@@ -13,13 +13,17 @@ double grazing_mm(double radius_mm, double surface_mm) { return 1e-4 * radius_mm
 
 double grazing_share(const Scene &scene, double surface_mm) {
     const std::vector<Ray> rays = sample_rays(scene.camera);
+    std::vector<Sphere> edges;
+    for (const Object &object : scene.objects) {
+        if (const auto orb = outer_sphere(object.shape)) edges.push_back(*orb);
+        if (const auto *shell = std::get_if<GlassShell>(&object.shape); shell && shell->inner_radius_mm() > 0)
+            edges.push_back({shell->centre_mm, shell->inner_radius_mm()});
+    }
     const auto grazes = [&](const Ray &ray) {
-        return std::ranges::any_of(scene.objects, [&](const Object &object) {
-            const auto orb = outer_sphere(object.shape);
-            if (!orb) return false;
-            const Passing passing = pass(ray, orb->centre_mm);
+        return std::ranges::any_of(edges, [&](const Sphere &edge) {
+            const Passing passing = pass(ray, edge.centre_mm);
             return passing.along_mm > 0 &&
-                   std::abs(passing.impact_mm - orb->radius_mm) < grazing_mm(orb->radius_mm, surface_mm);
+                   std::abs(passing.impact_mm - edge.radius_mm) < grazing_mm(edge.radius_mm, surface_mm);
         });
     };
     return static_cast<double>(std::ranges::count_if(rays, grazes)) / static_cast<double>(rays.size());

@@ -246,8 +246,9 @@ CyclesScene describe_for_cycles(const RenderJob &job) {
                                       made.accuracy.trapped_light, deepest_path, most_trapped_light),
                           "show more than the outermost rim, or use the tracer");
     if (const double grazing = grazing_share(scene, objects.surface_mm); grazing > most_grazing)
-        refuse_for_cycles(fmt::format("{:.3g} of the picture's rays graze an orb, passing its edge nearer than 1e-4 of its "
-                                      "radius and four times what its mesh strays, and go astray; at most {:g} may be",
+        refuse_for_cycles(fmt::format("{:.3g} of the picture's rays graze an orb or its hollow, passing the edge nearer than "
+                                      "1e-4 of the radius and four times what the mesh strays, and go astray; at most {:g} "
+                                      "may be",
                                       grazing, most_grazing),
                           "show more than the outermost rim, or use the tracer");
     made.data = {{"name", scene.name},

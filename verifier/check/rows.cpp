@@ -11,9 +11,9 @@ namespace threefold {
 
 namespace {
 
-constexpr int most_replicates = 64; ///< of a second look
+constexpr int most_replicates = 96; ///< of a second look
 /// How many times the replicates are made that would decide if mean and spread stayed as they are: they do not.
-constexpr double second_look_reserve = 1.5;
+constexpr double second_look_reserve = 2;
 
 Row compared(const Row &a, const Row &b) {
     Row row = a;
