@@ -14,6 +14,7 @@
 #include "exporter/files.h"
 #include "exporter/image/image_io.h"
 #include "scenes/catalogue/catalogue.h"
+#include "tests/lit_orb_file.h"
 #include "tests/temporary_folder.h"
 
 namespace threefold {
@@ -99,6 +100,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"check --with tracer --inject povray:wall-doubled", 64, "takes no part"},
         BadInput{"check --quick --with tracer --set image.width_px=100000 --set image.height_px=100000", 65, "GB"},
         BadInput{"render hollow --with povray --spp 2000000000", 65, "read back"},
+        BadInput{"check salvator --mitsuba a.xml", 64, "name no claims"},
+        BadInput{"check --mitsuba a.xml --preset text", 64, "--preset"}, BadInput{"check --mitsuba a.xml", 74, "a.xml"},
         BadInput{"optics --index 0.5", 65, "index"}, BadInput{"optics --impact-mm nan", 65, "impact"},
         BadInput{"optics --rows missing.json", 74, "missing.json"}));
 
@@ -367,6 +370,26 @@ TEST(Cli, ShowTellsWhatAMitsubaFileIsTakenFor) {
     EXPECT_THAT(told.err, HasSubstr("a sheet without thickness"));
     EXPECT_THAT(told.err, HasSubstr("reflects about 7.5 % less"));
     EXPECT_EQ(run(folder, "show --mitsuba sheet.xml").err, "");
+}
+
+TEST(Cli, ChecksThePictureOfAMitsubaFileLikeAnyClaim) {
+    const tests::TemporaryFolder folder;
+    write_file_atomically(folder / "lit-orb.xml", tests::lit_orb_xml);
+    const std::string check = "check --mitsuba lit-orb.xml --quick --with tracer --set file.unit_mm=1 ";
+    const Answer plan = run(folder, check + "--dry-run");
+    EXPECT_EQ(plan.exit_code, 0) << plan.err;
+    EXPECT_THAT(plan.out, HasSubstr("scene lit-orb              96 x 64 px, 8 replicates"));
+    expect_one_clear_line(run(folder, check + "--set file.unit=1"), 64, "did you mean 'file.unit_mm'");
+    const Answer alone = run(folder, check + "--json - --junit junit.xml -o run");
+    EXPECT_EQ(alone.exit_code, 2) << "one picture agrees with nothing";
+    const auto result = nlohmann::json::parse(alone.out);
+    ASSERT_EQ(result.at("claims").size(), 2u);
+    EXPECT_EQ(result.at("claims").at(0).at("verdict"), "holds");
+    EXPECT_EQ(result.at("claims").at(1).at("name"), "picture");
+    EXPECT_EQ(result.at("claims").at(1).at("verdict"), "undecided");
+    EXPECT_EQ(result.at("assignments").at("file.unit_mm"), "1");
+    EXPECT_THAT(read_file(folder / "junit.xml"), HasSubstr("the same picture of lit-orb"));
+    EXPECT_TRUE(fs::exists(folder / "run/report.html"));
 }
 
 TEST(Cli, ClaimsScenesForElsewhereGoIntoAFolderOfTheirOwn) {

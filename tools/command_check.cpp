@@ -61,9 +61,17 @@ std::map<std::string, InjectedFault> parse_injections(const std::vector<std::str
     return all;
 }
 
-std::vector<Claim> asked_claims(const Shop &shop, const std::vector<std::string> &names) {
-    if (names.empty()) return shop.claims;
+std::vector<Claim> asked_claims(const Shop &shop, const CheckCommand &command) {
+    const std::vector<std::string> &names = command.claims;
+    const bool file = !command.mitsuba.empty();
+    if (names.empty() && !file) return shop.claims;
+    if (file && !names.empty())
+        throw Error(Exit::usage, "--mitsuba has the file's own picture judged: name no claims beside it");
+    if (file && !command.preset.empty())
+        throw Error(Exit::usage, "--preset says nothing of a file: change its values by --set",
+                    "threefold show --mitsuba FILE lists them");
     std::vector<Claim> asked;
+    if (file) asked.push_back(claim_picture(mitsuba_recipe(shop, command.mitsuba)));
     for (const std::string &name : names) asked.push_back(find_claim(shop.claims, name));
     // A vote needs a calibration, asked for or not.
     if (std::ranges::count(asked, "calibration", &Claim::name) == 0)
@@ -136,9 +144,9 @@ std::vector<Preset> parse_presets(const std::string &name, bool quick) {
 
 Exit command_check(const Shop &shop, const CheckCommand &command) {
     CheckRequest request;
-    request.claims = asked_claims(shop, command.claims);
+    request.claims = asked_claims(shop, command);
     request.scenes = shop.scenes;
-    request.presets = parse_presets(command.preset, command.quick);
+    request.presets = parse_presets(command.mitsuba.empty() ? command.preset : "text", command.quick);
     for (const std::string &text : command.assignments) request.assignments.push_back(parse_assignment(text));
     request.quick = command.quick;
     request.seed = command.seed;

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // list and show: what there is to render and to check.
+#include <memory>
+#include <set>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
@@ -41,9 +44,13 @@ SceneRecipe recipe_of(const Shop &shop, const SceneRequest &request) {
     if (request.mitsuba.empty() == request.name.empty())
         throw Error(Exit::usage,
                     "name a scene of the catalogue (see: threefold list), or --mitsuba FILE.xml: one of them");
-    if (request.mitsuba.empty()) return find_scene(shop.scenes, request.name);
-    return mitsuba_scene(request.mitsuba, [&shop](const std::string &note) {
-        if (shop.verbosity > 0) say("note: " + note);
+    return request.mitsuba.empty() ? find_scene(shop.scenes, request.name) : mitsuba_recipe(shop, request.mitsuba);
+}
+
+SceneRecipe mitsuba_recipe(const Shop &shop, const std::string &file) {
+    const auto told = std::make_shared<std::set<std::string>>(); // a claim builds its scene several times
+    return mitsuba_scene(file, [&shop, told](const std::string &note) {
+        if (shop.verbosity > 0 && told->insert(note).second) say("note: " + note);
     });
 }
 

@@ -32,7 +32,7 @@ struct SceneRequest {
     std::string name;
     std::string preset = "text";
     std::vector<std::string> assignments;
-    std::string size{}; ///< "WxH", or empty
+    std::string size{};    ///< "WxH", or empty
     std::string mitsuba{}; ///< a file to read the scene from, in place of `name`; or empty
 };
 
@@ -44,6 +44,8 @@ SceneRecipe recipe_of(const Shop &shop, const SceneRequest &request);
 Parameters parameters_of(const SceneRecipe &recipe, const SceneRequest &request);
 /// Built and validated.
 Scene scene_of(const Shop &shop, const SceneRequest &request);
+/// The user's file as a scene; with --verbose it tells each note once.
+SceneRecipe mitsuba_recipe(const Shop &shop, const std::string &file);
 /// "WxH" as two assignments.
 std::vector<Assignment> parse_size(const std::string &size);
 
@@ -82,6 +84,7 @@ Exit command_render(const Shop &shop, const RenderRequest &request);
 
 struct CheckCommand {
     std::vector<std::string> claims;
+    std::string mitsuba;           ///< a file whose picture is judged, in place of `claims`; or empty
     std::vector<std::string> with; ///< empty: all, and a missing one is no error
     std::string preset;            ///< "text", "published" or "both"; empty: both, or text in a quick run
     std::vector<std::string> assignments;
@@ -114,7 +117,7 @@ Exit command_power(const Shop &shop, const PowerCommand &command);
 
 struct TradeCommand {
     SceneRequest scene;
-    std::vector<std::string> with; ///< empty: all, and a missing one is no error
+    std::vector<std::string> with;  ///< empty: all, and a missing one is no error
     std::vector<double> tolerances; ///< empty: 1e-2
     bool quick = false;
     int runs = 5;

@@ -3,7 +3,12 @@
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME threefold)
 set(CPACK_PACKAGE_VENDOR "The Threefold authors")
-set(CPACK_PACKAGE_CONTACT "The Threefold authors <threefold@localhost>")
+# A package's maintainer is who built it, by the variables that Debian's own tools read.
+if("$ENV{DEBFULLNAME}" STREQUAL "" OR "$ENV{DEBEMAIL}" STREQUAL "")
+  set(CPACK_PACKAGE_CONTACT "The Threefold authors <threefold@localhost>")
+else()
+  set(CPACK_PACKAGE_CONTACT "$ENV{DEBFULLNAME} <$ENV{DEBEMAIL}>")
+endif()
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
 set(CPACK_PACKAGE_DESCRIPTION
 "A scene is described once, rendered by POV-Ray, by Blender Cycles and by Threefold's own tracer, measured by the

@@ -312,6 +312,9 @@ int run(int argc, char **argv, const std::vector<SceneRecipe> &scenes, const std
     CheckCommand check_command;
     CLI::App &check = *app.add_subcommand("check", "Judge claims: render, measure, compare with exact optics, report");
     check.add_option("claims", check_command.claims, "Claims (see: threefold list); none: all");
+    check.add_option("--mitsuba", check_command.mitsuba,
+                     "Instead: whether a Mitsuba 0.5 to 3 file is the same picture in every renderer, tile by tile (its "
+                     "parameters: threefold show --mitsuba FILE)");
     check.add_flag("--quick", check_command.quick, "Smaller pictures: an answer in two minutes or so");
     check
         .add_option("--with", check_command.with,

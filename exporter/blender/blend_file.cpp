@@ -25,6 +25,10 @@ std::string notes_of(const ExportJob &job, const InstalledRenderer &blender, dou
         "The camera hangs on \"Camera stand\"; at location and rotation 0 it is the verified view.\n"
         "\"Clear window\" before the camera is invisible. It makes Cycles share its samples evenly; keep it.\n"
         "Samples, bounces, clamping and filter are as verified: each one that is changed changes the picture.\n"
+        "Saved by a Blender before 4.5, the file starts at sample 0, since later ones would read an offset as no "
+        "samples\n"
+        "at all: of N samples one goes through the pixel's centre, and the noise is another than in Threefold's "
+        "renders.\n"
         "The view transform is Standard; the EXR holds linear radiance whatever is chosen there.\n",
         to_text(job.provenance), blender.version, unit_mm, job.stem());
 }
@@ -45,8 +49,7 @@ std::vector<ExportedFile> make_blend_file(const ExportJob &job, const InstalledR
     write_file_atomically(folder.path() / "build.py", script("deliver"));
     write_file_atomically(folder.path() / "inspect.py", script("inspect"));
     run_in_blender(blender, {folder.path(), "build.py", {}, "", job.time_limit});
-    run_in_blender(blender,
-                   {folder.path(), "inspect.py", folder.path() / file, "threefold inspected", job.time_limit});
+    run_in_blender(blender, {folder.path(), "inspect.py", folder.path() / file, "threefold inspected", job.time_limit});
     return {{file, read_file(folder.path() / file)}, {"README.txt", notes}};
 }
 

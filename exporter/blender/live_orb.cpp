@@ -229,6 +229,15 @@ def set_picture(scene, replicate):
     put(scene.camera.data, shift_x=replicate["shift"][0], shift_y=replicate["shift"][1])
 
 
+def set_samples(cycles, count, pixel_filter, of_render=set_samples):
+    """Any later Blender may open the file. From 4.5 on, an offset and a count of older ones are read as a range without
+    samples, and the picture is black: a file of theirs starts at sample 0."""
+    if hasattr(cycles, "use_sample_subset"):
+        of_render(cycles, count, pixel_filter)
+    else:
+        put(cycles, samples=count, sample_offset=0)
+
+
 def deliver(scene_data, delivery):
     scene = build(scene_data, add_live_glass)
     scene.name = "Threefold"

@@ -85,8 +85,8 @@ struct Claim {
     /// One or two sentences for an art historian, by verdict.
     std::function<std::string(const ClaimContext &, Verdict)> summary;
     std::function<std::vector<std::string>(const ClaimContext &)> notes;
-    /// Where the conclusion flips, by the closed form at the scene's own parameters (claims/flip.h). `experiments` holds
-    /// the renders on both sides.
+    /// Where the conclusion flips, by the closed form at the scene's own parameters (claims/flip.h). `experiments`
+    /// holds the renders on both sides.
     std::function<std::vector<FlipPoint>(const ClaimContext &)> flips;
     /// How far each effect that its model leaves out could move its numbers (claims/scope.h).
     std::function<std::vector<ScopeNumber>(const ClaimContext &, const ScopeSettings &)> scope;
@@ -114,6 +114,10 @@ Claim claim_tint();
 Claim claim_calcite();
 Claim claim_dark_layer();
 Claim claim_white_spots();
+
+/// Any scene, not among the built-in ones: "picture", compared tile by tile. At most 256 px wide and high (quick: 128)
+/// unless image.width_px or image.height_px is assigned; the recipe has both parameters.
+Claim claim_picture(SceneRecipe recipe);
 
 /// `name=value` for whatever fmt can print, with all digits.
 Assignment assign(std::string_view name, double value);

@@ -25,63 +25,67 @@ double grey(Rgb c) { return (c.r + c.g + c.b) / 3; }
 class Canvas {
 public:
     explicit Canvas(const Scene &scene)
-        : scene_(scene), lights_(lights_on_diffuse(scene)), frame_(camera_frame(scene.camera)),
-          width_(scene.camera.image_width_px()), height_(scene.camera.image_height_px()),
-          pixels_(
-              static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_),
-              {std::numeric_limits<double>::infinity(), Vec3(0), Vec3(0), 0,
-               scene.environment ? grey(scene.environment->radiance) : 0}) {}
+        : scene_(scene), lights_(lights_on_diffuse(scene)), film_(scene.camera), width_(scene.camera.image_width_px()),
+          height_(scene.camera.image_height_px()),
+          pixels_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_),
+                  {std::numeric_limits<double>::infinity(), Vec3(0), Vec3(0), 0,
+                   scene.environment ? grey(scene.environment->radiance) : 0}) {}
 
     void draw(const std::array<Vec3, 3> &corners, const std::array<Vec2, 3> &uv, const Surface &surface) {
-        std::array<Vec3, 3> film; // x and y in pixels, z the depth
-        for (std::size_t i = 0; i < 3; ++i) {
-            film[i] = project(corners[i]);
-            if (!(film[i].z > 0)) return; // behind the eye: its share of the picture is not known so simply
-        }
-        const auto area = [](Vec3 a, Vec3 b, Vec3 c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); };
-        const double whole = area(film[0], film[1], film[2]);
-        if (whole == 0) return;
         const Vec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
-        const auto [left, right] = std::minmax({film[0].x, film[1].x, film[2].x});
-        const auto [top, bottom] = std::minmax({film[0].y, film[1].y, film[2].y});
-        const auto pixel = [](double x, int most) {
-            return static_cast<int>(std::clamp(std::ceil(x - 0.5), 0.0, static_cast<double>(most)));
-        };
-        for (int row = pixel(top, height_); row < pixel(bottom, height_); ++row)
-            for (int column = pixel(left, width_); column < pixel(right, width_); ++column) {
-                const Vec3 here(column + 0.5, row + 0.5, 0);
-                const double a = area(film[1], film[2], here) / whole, b = area(film[2], film[0], here) / whole;
-                const double c = 1 - a - b;
-                if (std::min({a, b, c}) < 0) continue;
+        const double whole = glm::dot(normal, normal);
+        if (whole == 0) return;
+        const Box box = pixels_of(corners);
+        for (int row = box.top; row < box.bottom; ++row)
+            for (int column = box.left; column < box.right; ++column) {
+                const Ray ray = film_.ray(Vec2(column + 0.5, row + 0.5));
+                const double along = glm::dot(normal, corners[0] - ray.origin_mm) / glm::dot(normal, ray.direction);
+                if (!(along > 0 && along < std::numeric_limits<double>::infinity())) continue;
+                const Vec3 here = ray.origin_mm + along * ray.direction;
+                const auto share = [&](Vec3 from, Vec3 to) {
+                    return glm::dot(glm::cross(from - here, to - here), normal) / whole;
+                };
+                const double a = share(corners[1], corners[2]), b = share(corners[2], corners[0]), c = 1 - a - b;
+                if (std::min({a, b, c}) < -1e-12) continue; // no gap between neighbours
                 SeenPoint &p = pixels_[static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) +
-                                   static_cast<std::size_t>(column)];
-                const double depth = a * film[0].z + b * film[1].z + c * film[2].z;
+                                       static_cast<std::size_t>(column)];
+                const double depth = glm::dot(here - scene_.camera.eye_mm, film_.frame().forward);
                 if (depth >= p.depth_mm) continue;
                 p = seen_at(surface, a * uv[0] + b * uv[1] + c * uv[2], normal, corners[0]);
                 p.depth_mm = depth;
-                const Ray ray = camera_ray(scene_.camera, Vec2(column + 0.5, row + 0.5));
-                p.point_mm = ray.origin_mm + glm::dot(normal, corners[0] - ray.origin_mm) /
-                                                 glm::dot(normal, ray.direction) * ray.direction;
+                p.point_mm = here;
             }
     }
 
     std::vector<SeenPoint> seen() && { return std::move(pixels_); }
 
 private:
-    Vec3 project(Vec3 point) const {
-        const Camera &camera = scene_.camera;
-        const Vec3 d = point - camera.eye_mm;
-        const double depth = glm::dot(d, frame_.forward);
-        const bool flat = camera.projection == Projection::orthographic;
-        const double scale = 0.5 * camera.width_px / film_half_width(camera) / (flat ? 1 : depth);
-        const Vec2 corner = camera.crop ? Vec2(camera.crop->x_px, camera.crop->y_px) : Vec2(0);
-        return {0.5 * camera.width_px + scale * glm::dot(d, frame_.right) - corner.x,
-                0.5 * camera.height_px - scale * glm::dot(d, frame_.up) - corner.y, depth};
+    struct Box {
+        int left, right, top, bottom;
+    };
+
+    /// Those whose centres a triangle can cover: all of them where it reaches behind the eye, and nothing projects.
+    Box pixels_of(const std::array<Vec3, 3> &corners) const {
+        std::array<Vec2, 3> seen;
+        int in_front = 0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Vec3 to = corners[i] - film_.eye_mm();
+            in_front += glm::dot(to, film_.frame().forward) > 0;
+            seen[i] = image_position(scene_.camera, {corners[i], to});
+        }
+        if (in_front == 0) return {0, 0, 0, 0};
+        if (in_front < 3) return {0, width_, 0, height_};
+        const auto [left, right] = std::minmax({seen[0].x, seen[1].x, seen[2].x});
+        const auto [top, bottom] = std::minmax({seen[0].y, seen[1].y, seen[2].y});
+        const auto pixel = [](double x, int most) {
+            return static_cast<int>(std::clamp(std::ceil(x - 0.5), 0.0, static_cast<double>(most)));
+        };
+        return {pixel(left, width_), pixel(right, width_), pixel(top, height_), pixel(bottom, height_)};
     }
 
     SeenPoint seen_at(const Surface &surface, Vec2 uv, Vec3 normal, Vec3 point) const {
         const bool flat = scene_.camera.projection == Projection::orthographic;
-        const Vec3 to_eye = flat ? -frame_.forward : scene_.camera.eye_mm - point;
+        const Vec3 to_eye = flat ? -film_.frame().forward : scene_.camera.eye_mm - point;
         const Vec3 n = glm::normalize(glm::dot(normal, to_eye) > 0 ? normal : -normal);
         const auto made = [&](double reflectance, double radiance) {
             return SeenPoint{0, Vec3(0), n, reflectance, radiance};
@@ -96,14 +100,16 @@ private:
                                   return made(reflectance, reflectance * irradiance / std::numbers::pi);
                               },
                               [&](const Emissive &emissive) { return made(0, grey(sample(emissive.radiance, uv))); },
-                              [&](const CoordinateCard &) { return made(0, grey({uv.x, uv.y, 1})); },
+                              [&](const CoordinateCard &) {
+                                  return made(0, grey({uv.x, uv.y, 1}));
+                              },
                           },
                           surface);
     }
 
     const Scene &scene_;
     std::vector<Directional> lights_;
-    CameraFrame frame_;
+    Film film_;
     int width_, height_;
     std::vector<SeenPoint> pixels_;
 };

@@ -8,7 +8,9 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include "verifier/claims/prediction.h"
+#include "scenes/access.h"
+#include "scenes/camera.h"
+#include "scenes/error.h"
 #include "verifier/claims/unshadowed.h"
 
 namespace threefold {
@@ -23,11 +25,42 @@ std::vector<Assignment> size_of(int width_px, int height_px) {
     return {assign("image.width_px", width_px), assign("image.height_px", height_px)};
 }
 
-double pixel_at_orb_mm(const Scene &scene, const OrbInScene &orb) {
-    return 2 * film_half_width(scene.camera) / scene.camera.width_px * glm::length(scene.camera.eye_mm - orb.centre_mm);
+/// Side of a pixel at the nearest orb; 0 where there is none.
+double pixel_at_orb_mm(const Scene &scene) {
+    const Film film(scene.camera);
+    double least = 0;
+    for (const Object &object : scene.objects)
+        if (const auto sphere = outer_sphere(object.shape)) {
+            const double distance = film.is_perspective() ? glm::length(film.eye_mm() - sphere->centre_mm) : 1;
+            least = least > 0 ? std::min(least, film.pixel() * distance) : film.pixel() * distance;
+        }
+    return least;
 }
 
 } // namespace
+
+void compare_as_picture(Experiment &e, int replicates) {
+    // One ray a pixel, through another point of it in each replicate and through the same one in all renderers.
+    e.sampling = Sampling::pixel_centres;
+    e.samples_per_pixel = 96;
+    e.shift_replicates = true;
+    e.replicates = replicates;
+    e.cut_weight = 1e-3;
+    e.tile_px = 16;
+    e.tiles_needed_share = tiles_needed;
+    e.surface_tolerance_mm = 0.01 * pixel_at_orb_mm(e.scene);
+    const double mean = unshadowed_mean_radiance(e.scene);
+    if (!(mean > 0))
+        throw Error(Exit::bad_data, fmt::format("{}: nothing in the picture is lit or sends light", e.record.scene),
+                    "point the camera at something, or --set environment.radiance=1");
+    e.tile_budget = [=](const Accuracy &, const Accuracy &) {
+        return std::vector<BudgetItem>{
+            {"resolution", tile_share * mean,
+             fmt::format("{:.2g} % of the picture's mean radiance as it would be without shadows ({:.3g}), the least "
+                         "difference that matters here; quantisation, tessellation and cut ray trees lie far below it",
+                         100 * tile_share, mean)}};
+    };
+}
 
 Experiment whole_picture(const ClaimContext &context, const std::string &scene, int width_px, int height_px,
                          int replicates) {
@@ -37,24 +70,7 @@ Experiment whole_picture(const ClaimContext &context, const std::string &scene, 
     defaults.push_back(assign("environment.dome_directions", 12));
     Experiment e = context.experiment(scene + "-picture", "the lit and painted scene, to be compared tile by tile",
                                       scene, defaults, {assign("figure.surface", "painted")});
-    // One ray a pixel, through another point of it in each replicate and through the same one in all renderers.
-    e.sampling = Sampling::pixel_centres;
-    e.samples_per_pixel = 96;
-    e.shift_replicates = true;
-    e.replicates = replicates;
-    e.cut_weight = 1e-3;
-    e.tile_px = 16;
-    e.tiles_needed_share = tiles_needed;
-    const double pixel = pixel_at_orb_mm(e.scene, orb_of(e.scene));
-    e.surface_tolerance_mm = 0.01 * pixel;
-    const double mean = unshadowed_mean_radiance(e.scene);
-    e.tile_budget = [=](const Accuracy &, const Accuracy &) {
-        return std::vector<BudgetItem>{
-            {"resolution", tile_share * mean,
-             fmt::format("{:.2g} % of the picture's mean radiance as it would be without shadows ({:.3g}), the least "
-                         "difference that matters here; quantisation, tessellation and cut ray trees lie far below it",
-                         100 * tile_share, mean)}};
-    };
+    compare_as_picture(e, replicates);
     return e;
 }
 
@@ -68,7 +84,7 @@ Experiment border_experiment(const ClaimContext &context, const std::string &sce
     e.sampling = Sampling::box;
     e.samples_per_pixel = 64;
     e.replicates = 4;
-    e.surface_tolerance_mm = 0.1 * pixel_at_orb_mm(e.scene, orb_of(e.scene));
+    e.surface_tolerance_mm = 0.1 * pixel_at_orb_mm(e.scene);
     const std::string quantity = fmt::format("left border of the {}", border.object);
     Camera &camera = e.scene.camera;
     const int top = camera.height_px * 2 / 5, rows = std::max(1, camera.height_px / 10);

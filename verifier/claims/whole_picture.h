@@ -7,7 +7,11 @@
 
 namespace threefold {
 
-/// The picture, to be compared tile by tile in 99 % of its tiles.
+/// Sampling, replicates and tolerance of a picture that is compared tile by tile: 99 % of its tiles must hold.
+/// Error(bad_data) where nothing in it sends light.
+void compare_as_picture(Experiment &e, int replicates);
+
+/// A picture of the catalogue's figure in that size.
 Experiment whole_picture(const ClaimContext &context, const std::string &scene, int width_px, int height_px,
                          int replicates);
 
