@@ -36,16 +36,20 @@ std::vector<Candidate> candidates_for(const RendererModel &model, double toleran
 
 std::optional<Candidate> with_more_samples(const Candidate &candidate, const ErrorSplit &measured, double tolerance,
                                            double rate, const std::function<int(double)> &round_up) {
-    const double room = tolerance * tolerance * share_of_tolerance - std::max(0.0, measured.bias2.value);
+    // A bias that is not told from zero may be chance, where pixels share their noise: then the sweep's word stands, and
+    // the rest of the error counts as noise.
+    const double bias2 = measured.bias2.seen() ? measured.bias2.value
+                                               : std::clamp(measured.bias2.value, 0.0, candidate.bias2);
+    const double room = tolerance * tolerance * share_of_tolerance - bias2;
     if (!(room > 0)) return std::nullopt;
-    const double factor = std::clamp(std::pow(measured.variance.value / room, 1 / rate), 1.2, 64.0);
+    const double noise2 = std::max(measured.mse.value - bias2, measured.variance.value);
+    const double factor = std::clamp(std::pow(noise2 / room, 1 / rate), 1.2, 64.0);
     Candidate more = candidate;
     more.setting.samples = std::max(round_up(candidate.setting.samples * factor), candidate.setting.samples + 1);
     const double longer = static_cast<double>(more.setting.samples) / candidate.setting.samples;
     more.process_s += candidate.own_s * (longer - 1);
     more.own_s *= longer;
-    more.predicted = std::sqrt(std::max(0.0, measured.bias2.value) +
-                               measured.variance.value * std::pow(longer, -rate));
+    more.predicted = std::sqrt(bias2 + noise2 * std::pow(longer, -rate));
     return more;
 }
 
