@@ -235,6 +235,23 @@ TEST(Choice, DoesNotTakeChanceForABias) {
     const auto more = with_more_samples(tried, measured, 1e-2, 1, up); // goal 8e-5
     ASSERT_TRUE(more);
     EXPECT_EQ(more->setting.samples, 175);
+    EXPECT_NEAR(more->own_s, 1.75, 1e-12);
+    EXPECT_NEAR(more->predicted, std::sqrt(8e-5), 1e-6);
+}
+
+TEST(Choice, TellsTheOtherSystemsOfNoiseBeyondTheLaw) {
+    Candidate tried;
+    tried.setting.samples = 100, tried.predicted = std::sqrt(8e-5), tried.own_s = 1, tried.process_s = 3;
+    ErrorSplit measured;
+    measured.variance.value = measured.mse.value = 1.6e-4;
+    const double times = noise_beyond_law(tried, measured);
+    EXPECT_NEAR(times, 2, 1e-9);
+    const auto up = [](double n) { return static_cast<int>(std::ceil(n - 1e-9)); };
+    const Candidate other = with_noise_beyond_law(tried, times, 2, up); // samples^-2
+    EXPECT_EQ(other.setting.samples, 142);
+    EXPECT_NEAR(other.process_s, 3 + 0.42, 1e-9);
+    measured.variance.value = measured.mse.value = 4e-5; // less is no reason for fewer samples
+    EXPECT_EQ(noise_beyond_law(tried, measured), 1);
 }
 
 TEST(Sweep, CutsTreesAsFineAsTheToleranceAsks) {

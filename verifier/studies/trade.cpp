@@ -399,11 +399,12 @@ private:
             q.choice.met = q.done = true;
             return;
         }
-        const Witness &w = *q.studied->witness;
+        const auto round_up = [&w = *q.studied->witness](double n) { return round_up_samples(w, n); };
+        const double rate = q.studied->model.noise.rate;
         q.open.erase(q.open.begin());
-        if (const auto more = with_more_samples(c, split, q.tolerance, q.studied->model.noise.rate,
-                                                [&w](double n) { return round_up_samples(w, n); }))
-            q.open.push_back(*more);
+        // A candidate that was lengthened already foretells by its own runs: the others know of those.
+        for (Candidate &other : q.open) other = with_noise_beyond_law(other, noise_beyond_law(c, split), rate, round_up);
+        if (const auto more = with_more_samples(c, split, q.tolerance, rate, round_up)) q.open.push_back(*more);
         std::ranges::stable_sort(q.open, {}, &Candidate::process_s);
         if (q.open.empty()) {
             q.done = true;
