@@ -239,6 +239,20 @@ TEST(Choice, DoesNotTakeChanceForABias) {
     EXPECT_NEAR(more->predicted, std::sqrt(8e-5), 1e-6);
 }
 
+TEST(Choice, SavesSamplesThatWereNotNeeded) {
+    Candidate met;
+    met.setting.samples = 100, met.own_s = 1, met.process_s = 3;
+    ErrorSplit measured;
+    measured.variance.value = measured.mse.value = 2e-5;
+    const auto up = [](double n) { return static_cast<int>(std::ceil(n - 1e-9)); };
+    const auto fewer = with_fewer_samples(met, measured, 1e-2, 1, up); // goal 8e-5
+    ASSERT_TRUE(fewer);
+    EXPECT_EQ(fewer->setting.samples, 25);
+    EXPECT_NEAR(fewer->process_s, 2.25, 1e-12);
+    measured.variance.value = measured.mse.value = 7e-5;
+    EXPECT_FALSE(with_fewer_samples(met, measured, 1e-2, 1, up));
+}
+
 TEST(Choice, TellsTheOtherSystemsOfNoiseBeyondTheLaw) {
     Candidate tried;
     tried.setting.samples = 100, tried.predicted = std::sqrt(8e-5), tried.own_s = 1, tried.process_s = 3;

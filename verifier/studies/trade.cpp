@@ -336,7 +336,7 @@ private:
             for (std::size_t k = 0; k < fresh.size(); ++k) judge(*asking[k], fresh[k]);
         }
         for (Quest &q : quests) {
-            if (!q.done && q.choice.note.empty())
+            if (!q.done && !q.choice.met)
                 q.choice.note = fmt::format("{} settings that should have met it did not; the nearest reached {:.2g}",
                                             q.choice.tried, q.best_error);
             result_.choices.push_back(q.choice);
@@ -386,8 +386,11 @@ private:
         const Candidate c = q.open.front();
         const ErrorSplit split = split_error(m.images, reference_);
         const double error = split.mse.root();
+        const bool meets = error <= q.tolerance;
         ++q.choice.tried;
-        if (q.choice.tried == 1 || error < q.best_error) {
+        // What was met once is met; a setting with fewer samples takes its place if it does too.
+        q.done = q.choice.met;
+        if (q.choice.met ? meets : q.choice.tried == 1 || error < q.best_error) {
             q.best_error = error;
             fill(q, c);
             q.choice.cost = mean_of(m.costs);
@@ -395,12 +398,17 @@ private:
             q.choice.measured = split.mse;
             q.choice.bias = split.bias2.root();
         }
-        if (error <= q.tolerance) {
-            q.choice.met = q.done = true;
-            return;
-        }
+        if (q.done) return;
         const auto round_up = [&w = *q.studied->witness](double n) { return round_up_samples(w, n); };
         const double rate = q.studied->model.noise.rate;
+        if (meets) {
+            q.choice.met = true;
+            if (const auto fewer = with_fewer_samples(c, split, q.tolerance, rate, round_up))
+                q.open = {*fewer};
+            else
+                q.done = true;
+            return;
+        }
         q.open.erase(q.open.begin());
         // A candidate that was lengthened already foretells by its own runs: the others know of those.
         for (Candidate &other : q.open) other = with_noise_beyond_law(other, noise_beyond_law(c, split), rate, round_up);

@@ -63,6 +63,19 @@ std::optional<Candidate> with_more_samples(const Candidate &candidate, const Err
     return more;
 }
 
+std::optional<Candidate> with_fewer_samples(const Candidate &candidate, const ErrorSplit &measured, double tolerance,
+                                            double rate, const std::function<int(double)> &round_up) {
+    const double bias2 = bias2_of(candidate, measured), noise2 = noise2_of(candidate, measured);
+    const double room = tolerance * tolerance * share_of_tolerance - bias2;
+    if (!(room > noise2)) return std::nullopt;
+    const int samples = round_up(candidate.setting.samples * std::pow(noise2 / room, 1 / rate));
+    if (samples > 0.8 * candidate.setting.samples) return std::nullopt;
+    Candidate fewer = lengthened(candidate, samples);
+    fewer.predicted =
+        std::sqrt(bias2 + noise2 * std::pow(static_cast<double>(samples) / candidate.setting.samples, -rate));
+    return fewer;
+}
+
 double noise_beyond_law(const Candidate &candidate, const ErrorSplit &measured) {
     const double foretold = candidate.predicted * candidate.predicted - candidate.bias2;
     return foretold > 0 ? std::clamp(noise2_of(candidate, measured) / foretold, 1.0, 64.0) : 1;
