@@ -98,7 +98,8 @@ std::vector<Image> shifted_runs(int count, double bias, double sigma, std::mt199
         const double u = turn(random), v = turn(random);
         for (std::size_t i = 0; i < image.pixels.size(); ++i) {
             const auto at = static_cast<double>(i);
-            image.pixels[i] = Rgb(2 + bias * (i % 2 ? 1 : -1) + sigma * (std::sin(u + 0.1 * at) + std::sin(v + at * at)));
+            image.pixels[i] =
+                Rgb(2 + bias * (i % 2 ? 1 : -1) + sigma * (std::sin(u + 0.1 * at) + std::sin(v + at * at)));
         }
         runs.push_back(std::move(image));
     }
@@ -148,7 +149,7 @@ TEST(ErrorSplit, KnowsThatThePixelsOfARunMayShareOneDraw) {
                     within_tiles += off <= 2 * error_of_tiles(runs, reference.mean, 2) ? 1 : 0;
                     claimed += b.seen() ? 1 : 0;
                 }
-                EXPECT_GE(within, 183) << count << " " << bias;      // of 190; 183 is 2.3 sigma below
+                EXPECT_GE(within, 183) << count << " " << bias;       // of 190; 183 is 2.3 sigma below
                 EXPECT_LE(within_tiles, 140) << count << " " << bias; // what it is mended for
                 if (bias == 0) {
                     EXPECT_LE(claimed, 17) << count; // of 10

@@ -51,13 +51,16 @@ struct Products {
 class RunsOfPictures {
 public:
     /// Without a reference: of the pictures themselves.
-    RunsOfPictures(std::span<const Image> runs, const Image *reference) : count_(runs.size()), products_(count_ * count_) {
+    RunsOfPictures(std::span<const Image> runs, const Image *reference)
+        : count_(runs.size()), products_(count_ * count_) {
         const std::size_t pixels = runs.front().pixels.size();
         std::vector<Rgb> d(count_);
         for (std::size_t i = 0; i < pixels; ++i) {
-            for (std::size_t k = 0; k < count_; ++k) d[k] = runs[k].pixels[i] - (reference ? reference->pixels[i] : Rgb(0));
+            for (std::size_t k = 0; k < count_; ++k)
+                d[k] = runs[k].pixels[i] - (reference ? reference->pixels[i] : Rgb(0));
             for (std::size_t j = 0; j < count_; ++j)
-                for (std::size_t k = 0; k <= j; ++k) products_[j * count_ + k] += d[j].r * d[k].r + d[j].g * d[k].g + d[j].b * d[k].b;
+                for (std::size_t k = 0; k <= j; ++k)
+                    products_[j * count_ + k] += d[j].r * d[k].r + d[j].g * d[k].g + d[j].b * d[k].b;
         }
         for (std::size_t j = 0; j < count_; ++j)
             for (std::size_t k = 0; k <= j; ++k)
@@ -79,8 +82,7 @@ public:
         // Of two runs none can be left out. If their pixels share all their noise, the mean difference is a single
         // number, t = M sqrt(2) / s, and M^2 - s^2 / 2 reaches (t^2 - 1) s^2 / 2; a bias adds 2 bias (M - bias).
         const double t = students_factor() * 2;
-        return (t * t - 1) * sums().variance() / 4 +
-               students_factor() * std::abs(at(0, 0) - at(1, 1)) / 2;
+        return (t * t - 1) * sums().variance() / 4 + students_factor() * std::abs(at(0, 0) - at(1, 1)) / 2;
     }
 
 private:

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // How wrong is a picture, and of what kind is the error? Independent runs of one setting against a reference give the
 // mean square error and its two parts: what another seed would change (variance), and what none would (bias).
-// All errors are relative: to the reference's mean radiance, over all pixels and channels, and squares are kept, because
-// only squares have estimates without bias. With K runs X, their mean M and spread s^2 (K - 1), and a reference R whose
-// own mean has the variance v, independent of the runs:
+// All errors are relative: to the reference's mean radiance, over all pixels and channels, and squares are kept,
+// because only squares have estimates without bias. With K runs X, their mean M and spread s^2 (K - 1), and a reference
+// R whose own mean has the variance v, independent of the runs:
 //   mse      = mean_k (X_k - R)^2 - v         the square error of one run
 //   variance = s^2
 //   bias2    = (M - R)^2 - s^2 / K - v        mse = variance + bias2 but for rounding
@@ -13,9 +13,10 @@
 // reference's own noise among it; but it is blind to what all pixels of a run share (POV-Ray's samples are one grid,
 // shifted as a whole by one random number). Leaving out one run at a time (jackknife) tells that, and is blind to the
 // reference. So the squares of both are added. What both see is counted twice: where pixels are independent a standard
-// error is up to about twice too large, and a bias is claimed less readily, never more. The jackknife's part carries Student's
-// factor for K - 1, so that two standard errors hold 95 %. From two runs, of which none can be left out, the worst case
-// is taken, that pixels share all their noise: such a bias must be nine times the noise to stand out. Take three or more.
+// error is up to about twice too large, and a bias is claimed less readily, never more. The jackknife's part carries
+// Student's factor for K - 1, so that two standard errors hold 95 %. From two runs, of which none can be left out, the
+// worst case is taken, that pixels share all their noise: such a bias must be nine times the noise to stand out. Take
+// three or more.
 #pragma once
 
 #include <span>

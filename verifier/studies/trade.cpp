@@ -233,8 +233,8 @@ private:
         for (const std::size_t k : pareto_front(process, errors)) result_.rows[s.rows[k]].on_process_front = true;
     }
 
-    /// The square of the offset where it is seen; where noise hides it, what the knobs are known to do. Of all rows with
-    /// the same knobs but the samples: each does not depend on them.
+    /// The square of the offset where it is seen; where noise hides it, what the knobs are known to do. Of all rows
+    /// with the same knobs but the samples: each does not depend on them.
     double bias2_of(const Studied &s, const Setting &setting) const {
         const Square *surest = nullptr, *difference = nullptr;
         for (const std::size_t i : s.rows) {
@@ -411,7 +411,8 @@ private:
         }
         q.open.erase(q.open.begin());
         // A candidate that was lengthened already foretells by its own runs: the others know of those.
-        for (Candidate &other : q.open) other = with_noise_beyond_law(other, noise_beyond_law(c, split), rate, round_up);
+        for (Candidate &other : q.open)
+            other = with_noise_beyond_law(other, noise_beyond_law(c, split), rate, round_up);
         if (const auto more = with_more_samples(c, split, q.tolerance, rate, round_up)) q.open.push_back(*more);
         std::ranges::stable_sort(q.open, {}, &Candidate::process_s);
         if (q.open.empty()) {

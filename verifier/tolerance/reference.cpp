@@ -193,7 +193,9 @@ ReferencePicture make_reference(const Scene &scene, const ReferenceRequest &requ
         r.cpu_seconds = cpu;
         r.kind = fmt::format("our tracer: {} samples a pixel, double, cut 1e-6 ({:.1e} of the light is dropped)",
                              pictures * *more, outcome.missing_weight_mean);
-        more = stage < most_refinements ? samples_for(r.error, *more, request, request.most_cpu_s - cpu, outcome.cpu_seconds / *more) : std::nullopt;
+        more = stage < most_refinements
+                   ? samples_for(r.error, *more, request, request.most_cpu_s - cpu, outcome.cpu_seconds / *more)
+                   : std::nullopt;
     }
     return r;
 }
