@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "exporter/temporary_folder.h"
@@ -20,6 +21,14 @@ namespace threefold {
 namespace {
 
 constexpr int side_px = 64;
+
+Scene catalogue_scene(const std::string &name, const std::vector<std::pair<std::string, std::string>> &values) {
+    const auto scenes = built_in_scenes();
+    const SceneRecipe &recipe = find_scene(scenes, name);
+    Parameters parameters(recipe.parameters, Preset::text);
+    for (const auto &[key, value] : values) parameters.set(key, value);
+    return recipe.make(parameters);
+}
 
 /// A picture of radiance about 2 with a known offset and independent normal noise.
 Image noisy(double offset, double sigma, std::uint64_t seed) {
@@ -80,6 +89,98 @@ TEST(ErrorSplit, TakesTheNoiseOffAPairedDifference) {
     EXPECT_DOUBLE_EQ(paired_bias2(a, a, 2).value, 0);
 }
 
+/// As POV-Ray's: one random shift of all samples, which each pixel answers in its own way.
+std::vector<Image> shifted_runs(int count, double bias, double sigma, std::mt19937_64 &random) {
+    std::uniform_real_distribution<double> turn(0, 2 * std::numbers::pi);
+    std::vector<Image> runs;
+    for (int k = 0; k < count; ++k) {
+        Image image(side_px, side_px);
+        const double u = turn(random), v = turn(random);
+        for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+            const auto at = static_cast<double>(i);
+            image.pixels[i] =
+                Rgb(2 + bias * (i % 2 ? 1 : -1) + sigma * (std::sin(u + 0.1 * at) + std::sin(v + at * at)));
+        }
+        runs.push_back(std::move(image));
+    }
+    return runs;
+}
+
+/// The same for all pixels: the worst case.
+std::vector<Image> offset_runs(int count, double bias, double sigma, std::mt19937_64 &random) {
+    std::normal_distribution<double> normal;
+    std::vector<Image> runs;
+    for (int k = 0; k < count; ++k) runs.emplace_back(side_px, side_px, Rgb(2 + bias + sigma * normal(random)));
+    return runs;
+}
+
+/// What the scatter over tiles alone would say of bias2.
+double error_of_tiles(std::span<const Image> runs, const Image &reference, double mean) {
+    const auto count = static_cast<double>(runs.size());
+    std::vector<double> tiles(std::size_t{side_px / 8} * (side_px / 8));
+    for (int row = 0; row < side_px; ++row)
+        for (int column = 0; column < side_px; ++column) {
+            double middle = 0, squares = 0;
+            for (const Image &run : runs) middle += run.at(column, row).g / count;
+            for (const Image &run : runs) squares += std::pow(run.at(column, row).g - middle, 2) / (count - 1);
+            tiles[static_cast<std::size_t>(row / 8 * (side_px / 8) + column / 8)] +=
+                (std::pow(middle - reference.at(column, row).g, 2) - squares / count) / 64 / (mean * mean);
+        }
+    double middle = 0, squares = 0;
+    const auto n = static_cast<double>(tiles.size());
+    for (const double t : tiles) middle += t / n;
+    for (const double t : tiles) squares += (t - middle) * (t - middle);
+    return std::sqrt(squares / (n - 1) / n);
+}
+
+TEST(ErrorSplit, KnowsThatThePixelsOfARunMayShareOneDraw) {
+    constexpr int trials = 200;
+    const ReferencePicture reference = exact_reference(Image(side_px, side_px, Rgb(2)));
+    for (const auto make : {shifted_runs, offset_runs})
+        for (const int count : {2, 3, 5})
+            for (const double bias : {0.0, 0.05}) { // relative 0.025; noise 0.1
+                std::mt19937_64 random(static_cast<std::uint64_t>(count));
+                int within = 0, within_tiles = 0, claimed = 0;
+                for (int trial = 0; trial < trials; ++trial) {
+                    const std::vector<Image> runs = make(count, bias, 0.2, random);
+                    const Square b = split_error(runs, reference).bias2;
+                    const double off = std::abs(b.value - bias * bias / 4);
+                    within += off <= 2 * b.standard_error ? 1 : 0;
+                    within_tiles += off <= 2 * error_of_tiles(runs, reference.mean, 2) ? 1 : 0;
+                    claimed += b.seen() ? 1 : 0;
+                }
+                EXPECT_GE(within, 183) << count << " " << bias;       // of 190; 183 is 2.3 sigma below
+                EXPECT_LE(within_tiles, 140) << count << " " << bias; // what it is mended for
+                if (bias == 0) {
+                    EXPECT_LE(claimed, 17) << count; // of 10
+                }
+            }
+}
+
+TEST(ErrorSplit, StillFindsATrueBias) {
+    const ReferencePicture reference = exact_reference(Image(side_px, side_px, Rgb(2)));
+    std::mt19937_64 random(1);
+    int claimed = 0, claimed_of_two = 0, claimed_of_pairs = 0, within_pairs = 0;
+    for (int trial = 0; trial < 100; ++trial) {
+        const std::vector<Image> runs = shifted_runs(5, 0.4, 0.2, random);
+        claimed += split_error(runs, reference).bias2.seen() ? 1 : 0;
+        claimed_of_two += split_error(shifted_runs(2, 0.4, 0.03, random), reference).bias2.seen() ? 1 : 0;
+        // A pair with the same seeds differs in little noise.
+        std::vector<Image> others = runs;
+        const std::vector<Image> differences = shifted_runs(5, 0.02, 0.005, random);
+        for (std::size_t k = 0; k < others.size(); ++k)
+            for (std::size_t i = 0; i < others[k].pixels.size(); ++i)
+                others[k].pixels[i] += differences[k].pixels[i] - Rgb(2);
+        const Square pair = paired_bias2(others, runs, 2);
+        claimed_of_pairs += pair.seen() ? 1 : 0;
+        within_pairs += std::abs(pair.value - 1e-4) <= 2 * pair.standard_error ? 1 : 0;
+    }
+    EXPECT_GE(claimed, 70);
+    EXPECT_GE(claimed_of_two, 50);
+    EXPECT_GE(claimed_of_pairs, 95);
+    EXPECT_GE(within_pairs, 90);
+}
+
 TEST(ErrorSplit, HasNoMeaningForBlackPictures) {
     EXPECT_THROW(to_reference({Image(8, 8), Image(8, 8)}), Error);
     EXPECT_THROW(split_error(std::vector{Image(8, 8)}, exact_reference(Image(8, 8, Rgb(1)))), Error);
@@ -126,12 +227,62 @@ TEST(Choice, IsTheCheapestSystemThatLeavesTheNoiseRoom) {
     EXPECT_FALSE(with_more_samples(found[0], measured, 1e-2, 1, up));
 }
 
-Scene catalogue_scene(const std::string &name, const std::vector<std::pair<std::string, std::string>> &values) {
-    const auto scenes = built_in_scenes();
-    const SceneRecipe &recipe = find_scene(scenes, name);
-    Parameters parameters(recipe.parameters, Preset::text);
-    for (const auto &[key, value] : values) parameters.set(key, value);
-    return recipe.make(parameters);
+TEST(Choice, DoesNotTakeChanceForABias) {
+    Candidate tried;
+    tried.setting.samples = 100, tried.own_s = 1;
+    ErrorSplit measured;
+    measured.variance.value = 5e-5, measured.bias2 = {9e-5, 1e-4}, measured.mse.value = 1.4e-4;
+    const auto up = [](double n) { return static_cast<int>(std::ceil(n)); };
+    const auto more = with_more_samples(tried, measured, 1e-2, 1, up); // goal 8e-5
+    ASSERT_TRUE(more);
+    EXPECT_EQ(more->setting.samples, 175);
+    EXPECT_NEAR(more->own_s, 1.75, 1e-12);
+    EXPECT_NEAR(more->predicted, std::sqrt(8e-5), 1e-6);
+}
+
+TEST(Choice, SavesSamplesThatWereNotNeeded) {
+    Candidate met;
+    met.setting.samples = 100, met.own_s = 1, met.process_s = 3;
+    ErrorSplit measured;
+    measured.variance.value = measured.mse.value = 2e-5;
+    const auto up = [](double n) { return static_cast<int>(std::ceil(n - 1e-9)); };
+    const auto fewer = with_fewer_samples(met, measured, 1e-2, 1, up); // goal 8e-5
+    ASSERT_TRUE(fewer);
+    EXPECT_EQ(fewer->setting.samples, 25);
+    EXPECT_NEAR(fewer->process_s, 2.25, 1e-12);
+    measured.variance.value = measured.mse.value = 7e-5;
+    EXPECT_FALSE(with_fewer_samples(met, measured, 1e-2, 1, up));
+}
+
+TEST(Choice, TellsTheOtherSystemsOfNoiseBeyondTheLaw) {
+    Candidate tried;
+    tried.setting.samples = 100, tried.predicted = std::sqrt(8e-5), tried.own_s = 1, tried.process_s = 3;
+    ErrorSplit measured;
+    measured.variance.value = measured.mse.value = 1.6e-4;
+    const double times = noise_beyond_law(tried, measured);
+    EXPECT_NEAR(times, 2, 1e-9);
+    const auto up = [](double n) { return static_cast<int>(std::ceil(n - 1e-9)); };
+    const Candidate other = with_noise_beyond_law(tried, times, 2, up); // samples^-2
+    EXPECT_EQ(other.setting.samples, 142);
+    EXPECT_NEAR(other.process_s, 3 + 0.42, 1e-9);
+    measured.variance.value = measured.mse.value = 4e-5; // less is no reason for fewer samples
+    EXPECT_EQ(noise_beyond_law(tried, measured), 1);
+}
+
+TEST(Sweep, CutsTreesAsFineAsTheToleranceAsks) {
+    const Scene scene = catalogue_scene("hollow", {});
+    for (const Witness &w : find_witnesses({"tracer", "povray"}))
+        for (const auto &[tolerance, most] : {std::pair{1e-2, 1e-5}, {1e-3, 1e-6}}) {
+            const auto points = sweep_of(w, scene, true, tolerance);
+            EXPECT_LE(points.front().setting.cut_weight, most * 1.001) << w.name;
+            // Something stands beside the finest to be held against it, with as many samples.
+            EXPECT_TRUE(std::ranges::any_of(points, [&](const SweepPoint &p) {
+                return p.knob == Knob::samples && p.setting.samples == points.front().setting.samples;
+            })) << w.name;
+        }
+    const Witness cycles = find_witnesses({"cycles"}).front();
+    EXPECT_LT(sweep_of(cycles, scene, true, 1e-3).front().setting.surface_mm,
+              sweep_of(cycles, scene, true, 1e-2).front().setting.surface_mm);
 }
 
 TEST(ClosedFormPicture, OfASinglePathIsTheTracers) {

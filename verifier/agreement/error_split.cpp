@@ -7,6 +7,8 @@
 #include <limits>
 #include <numeric>
 
+#include <boost/math/distributions/students_t.hpp>
+
 #include "scenes/error.h"
 #include "verifier/measure/radiance.h"
 
@@ -34,6 +36,91 @@ Square over_pixels(int width, int height, const std::function<Rgb(std::size_t)> 
     double squares = 0;
     for (const double s : sums) squares += (s - middle) * (s - middle);
     return {total / pixels, tiles > 1 ? std::sqrt(squares * tiles / (tiles - 1)) / pixels : std::abs(total / pixels)};
+}
+
+/// Sums over a set of runs of the products <d_j, d_k>, means over pixels and channels; d = run - reference. All three
+/// squares are functions of these alone.
+struct Products {
+    double runs = 0, same = 0, all = 0; ///< same: j = k only
+
+    double mse() const { return same / runs; }
+    double bias2() const { return (all - same) / (runs * (runs - 1)); }
+    double variance() const { return mse() - bias2(); }
+};
+
+class RunsOfPictures {
+public:
+    /// Without a reference: of the pictures themselves.
+    RunsOfPictures(std::span<const Image> runs, const Image *reference)
+        : count_(runs.size()), products_(count_ * count_) {
+        const std::size_t pixels = runs.front().pixels.size();
+        std::vector<Rgb> d(count_);
+        for (std::size_t i = 0; i < pixels; ++i) {
+            for (std::size_t k = 0; k < count_; ++k)
+                d[k] = runs[k].pixels[i] - (reference ? reference->pixels[i] : Rgb(0));
+            for (std::size_t j = 0; j < count_; ++j)
+                for (std::size_t k = 0; k <= j; ++k)
+                    products_[j * count_ + k] += d[j].r * d[k].r + d[j].g * d[k].g + d[j].b * d[k].b;
+        }
+        for (std::size_t j = 0; j < count_; ++j)
+            for (std::size_t k = 0; k <= j; ++k)
+                products_[k * count_ + j] = products_[j * count_ + k] /= 3 * static_cast<double>(pixels);
+    }
+
+    double mse_error() const {
+        return jackknife([](const Products &p) { return p.mse(); });
+    }
+
+    double variance_error() const {
+        // Two runs that share all their noise: one square of a normal number.
+        if (count_ == 2) return std::sqrt(2.0) * sums().variance();
+        return jackknife([](const Products &p) { return p.variance(); });
+    }
+
+    double bias2_error() const {
+        if (count_ > 2) return jackknife([](const Products &p) { return p.bias2(); });
+        // Of two runs none can be left out. If their pixels share all their noise, the mean difference is a single
+        // number, t = M sqrt(2) / s, and M^2 - s^2 / 2 reaches (t^2 - 1) s^2 / 2; a bias adds 2 bias (M - bias).
+        const double t = students_factor() * 2;
+        return (t * t - 1) * sums().variance() / 4 + students_factor() * std::abs(at(0, 0) - at(1, 1)) / 2;
+    }
+
+private:
+    double at(std::size_t j, std::size_t k) const { return products_[j * count_ + k]; }
+
+    Products sums() const {
+        Products p{static_cast<double>(count_), 0, std::accumulate(products_.begin(), products_.end(), 0.0)};
+        for (std::size_t k = 0; k < count_; ++k) p.same += at(k, k);
+        return p;
+    }
+
+    /// So that two standard errors hold 95 % for so few runs.
+    double students_factor() const {
+        const boost::math::students_t t(static_cast<double>(count_ - 1));
+        return boost::math::quantile(complement(t, 0.025)) / 2;
+    }
+
+    /// Efron and Stein, The Jackknife Estimate of Variance, 1981: too large on average, if anything.
+    double jackknife(double (*of)(const Products &)) const {
+        const Products whole = sums();
+        std::vector<double> left;
+        for (std::size_t k = 0; k < count_; ++k) {
+            double row = 0;
+            for (std::size_t j = 0; j < count_; ++j) row += at(k, j);
+            left.push_back(of({whole.runs - 1, whole.same - at(k, k), whole.all - 2 * row + at(k, k)}));
+        }
+        const double middle = std::accumulate(left.begin(), left.end(), 0.0) / whole.runs;
+        double squares = 0;
+        for (const double l : left) squares += (l - middle) * (l - middle);
+        return students_factor() * std::sqrt(squares * (whole.runs - 1) / whole.runs);
+    }
+
+    std::size_t count_;
+    std::vector<double> products_;
+};
+
+Square with_error_of_runs(Square tiles, double of_runs) {
+    return {tiles.value, std::hypot(tiles.standard_error, of_runs)};
 }
 
 Square scaled(Square s, double mean) { return {s.value / (mean * mean), s.standard_error / (mean * mean)}; }
@@ -106,17 +193,19 @@ ErrorSplit split_error(std::span<const Image> runs, const ReferencePicture &refe
     const auto count = static_cast<double>(runs.size());
     const Image middle = mean_of(runs), spread = spread_of(runs, middle);
     const Image &r = reference.mean, &v = reference.variance;
-    const auto over = [&](const std::function<Rgb(std::size_t)> &of_pixel) {
-        return scaled(over_pixels(middle.width, middle.height, of_pixel), reference.mean_radiance);
+    const RunsOfPictures shared(runs, &r);
+    const auto over = [&](double of_runs, const std::function<Rgb(std::size_t)> &of_pixel) {
+        return scaled(with_error_of_runs(over_pixels(middle.width, middle.height, of_pixel), of_runs),
+                      reference.mean_radiance);
     };
     ErrorSplit split;
     split.runs = static_cast<int>(runs.size());
-    split.variance = over([&](std::size_t i) { return spread.pixels[i]; });
-    split.bias2 = over([&](std::size_t i) {
+    split.variance = over(shared.variance_error(), [&](std::size_t i) { return spread.pixels[i]; });
+    split.bias2 = over(shared.bias2_error(), [&](std::size_t i) {
         const Rgb d = middle.pixels[i] - r.pixels[i];
         return d * d - spread.pixels[i] / count - v.pixels[i];
     });
-    split.mse = over([&](std::size_t i) {
+    split.mse = over(shared.mse_error(), [&](std::size_t i) {
         Rgb sum(0);
         for (const Image &run : runs) {
             const Rgb d = run.pixels[i] - r.pixels[i];
@@ -149,11 +238,10 @@ Square paired_bias2(std::span<const Image> a, std::span<const Image> b, double m
         for (std::size_t i = 0; i < a[k].pixels.size(); ++i) differences[k].pixels[i] -= b[k].pixels[i];
     const Image middle = mean_of(differences), spread = spread_of(differences, middle);
     const auto count = static_cast<double>(a.size());
-    return scaled(over_pixels(middle.width, middle.height,
-                              [&](std::size_t i) {
-                                  return middle.pixels[i] * middle.pixels[i] - spread.pixels[i] / count;
-                              }),
-                  mean);
+    const Square tiles = over_pixels(middle.width, middle.height, [&](std::size_t i) {
+        return middle.pixels[i] * middle.pixels[i] - spread.pixels[i] / count;
+    });
+    return scaled(with_error_of_runs(tiles, RunsOfPictures(differences, nullptr).bias2_error()), mean);
 }
 
 Square error2_of_mean(std::span<const Image> runs, const ReferencePicture &reference) {

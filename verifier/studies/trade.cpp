@@ -74,16 +74,16 @@ public:
         const auto start = std::chrono::steady_clock::now();
         check_request();
         describe_run();
+        const double least = *std::ranges::min_element(request_.tolerances);
         std::vector<Measured> sweep;
         for (const Witness &w : request_.witnesses) {
             studied_.push_back({&w, {}, {}});
-            for (const SweepPoint &point : sweep_of(w, request_.scene, request_.quick)) {
+            for (const SweepPoint &point : sweep_of(w, request_.scene, request_.quick, least)) {
                 studied_.back().rows.push_back(sweep.size());
                 sweep.push_back({&w, point, {}, {}});
             }
         }
         say_reference(0);
-        const double least = *std::ranges::min_element(request_.tolerances);
         reference_ = make_reference(request_.scene, {.error = least / 4,
                                                      .most_cpu_s = request_.quick ? 60.0 : 600.0,
                                                      .seed = tracer::mix(request_.seed ^ 0x5eedu),
@@ -93,6 +93,11 @@ public:
         result_.reference_error = reference_.error;
         result_.reference_cpu_s = reference_.cpu_seconds;
         result_.mean_radiance = reference_.mean_radiance;
+        if (reference_.error > least / 2)
+            result_.notes.push_back(fmt::format(
+                "The reference is itself good to {:.1e} only, not well below the tolerance {:g}: a longer one was not "
+                "afforded. Its noise is taken off every square, but what is then left is the less sure.",
+                reference_.error, least));
 
         measure_in_turn(sweep, 0, "sweep", 0, 0.7);
         for (const Measured &m : sweep) result_.rows.push_back(row_of(m));
@@ -228,10 +233,19 @@ private:
         for (const std::size_t k : pareto_front(process, errors)) result_.rows[s.rows[k]].on_process_front = true;
     }
 
-    /// The square of the offset where it is seen; where noise hides it, what the knobs are known to do.
-    static double bias2_of(const TradeRow &row) {
-        if (row.error.bias2.value > 2 * row.error.bias2.standard_error) return row.error.bias2.value;
-        return row.difference ? std::max(0.0, row.difference->value) : 0;
+    /// The square of the offset where it is seen; where noise hides it, what the knobs are known to do. Of all rows
+    /// with the same knobs but the samples: each does not depend on them.
+    double bias2_of(const Studied &s, const Setting &setting) const {
+        const Square *surest = nullptr, *difference = nullptr;
+        for (const std::size_t i : s.rows) {
+            const TradeRow &row = result_.rows[i];
+            if (!row.knobs.same_system(setting)) continue;
+            const Square &b = row.error.bias2;
+            if (!surest || b.standard_error < surest->standard_error) surest = &b;
+            if (row.difference) difference = &*row.difference;
+        }
+        if (surest && surest->seen()) return surest->value;
+        return difference ? std::max(0.0, difference->value) : 0;
     }
 
     void fit(Studied &s) {
@@ -254,7 +268,7 @@ private:
             if (known != s.model.systems.end() && known->setting.samples >= row.knobs.samples) continue;
             SystemModel system;
             system.setting = row.knobs;
-            system.bias2 = bias2_of(row);
+            system.bias2 = bias2_of(s, row.knobs);
             const double law = s.model.noise.variance(row.knobs.samples);
             system.variance_ratio = law > 0 ? row.error.variance.value / law : 1;
             system.own_s_per_sample = row.cost.own_cpu_s / row.knobs.samples;
@@ -285,7 +299,7 @@ private:
         for (const std::size_t i : s.rows)
             if (!most || result_.rows[i].error.variance.value < most->error.variance.value) most = &result_.rows[i];
         const Square &b = most->error.bias2;
-        if (b.value > 2 * b.standard_error)
+        if (b.seen())
             return fmt::format("{:.2g} of the mean radiance at {} (relative RMS, against the reference)", b.root(),
                                most->setting);
         return fmt::format("none seen at {}: under {:.2g} of the mean radiance", most->setting,
@@ -322,7 +336,7 @@ private:
             for (std::size_t k = 0; k < fresh.size(); ++k) judge(*asking[k], fresh[k]);
         }
         for (Quest &q : quests) {
-            if (!q.done && q.choice.note.empty())
+            if (!q.done && !q.choice.met)
                 q.choice.note = fmt::format("{} settings that should have met it did not; the nearest reached {:.2g}",
                                             q.choice.tried, q.best_error);
             result_.choices.push_back(q.choice);
@@ -372,8 +386,11 @@ private:
         const Candidate c = q.open.front();
         const ErrorSplit split = split_error(m.images, reference_);
         const double error = split.mse.root();
+        const bool meets = error <= q.tolerance;
         ++q.choice.tried;
-        if (q.choice.tried == 1 || error < q.best_error) {
+        // What was met once is met; a setting with fewer samples takes its place if it does too.
+        q.done = q.choice.met;
+        if (q.choice.met ? meets : q.choice.tried == 1 || error < q.best_error) {
             q.best_error = error;
             fill(q, c);
             q.choice.cost = mean_of(m.costs);
@@ -381,15 +398,22 @@ private:
             q.choice.measured = split.mse;
             q.choice.bias = split.bias2.root();
         }
-        if (error <= q.tolerance) {
-            q.choice.met = q.done = true;
+        if (q.done) return;
+        const auto round_up = [&w = *q.studied->witness](double n) { return round_up_samples(w, n); };
+        const double rate = q.studied->model.noise.rate;
+        if (meets) {
+            q.choice.met = true;
+            if (const auto fewer = with_fewer_samples(c, split, q.tolerance, rate, round_up))
+                q.open = {*fewer};
+            else
+                q.done = true;
             return;
         }
-        const Witness &w = *q.studied->witness;
         q.open.erase(q.open.begin());
-        if (const auto more = with_more_samples(c, split, q.tolerance, q.studied->model.noise.rate,
-                                                [&w](double n) { return round_up_samples(w, n); }))
-            q.open.push_back(*more);
+        // A candidate that was lengthened already foretells by its own runs: the others know of those.
+        for (Candidate &other : q.open)
+            other = with_noise_beyond_law(other, noise_beyond_law(c, split), rate, round_up);
+        if (const auto more = with_more_samples(c, split, q.tolerance, rate, round_up)) q.open.push_back(*more);
         std::ranges::stable_sort(q.open, {}, &Candidate::process_s);
         if (q.open.empty()) {
             q.done = true;

@@ -4,8 +4,9 @@
 // so that a busy minute falls on all of them; the error is split against a closed form or a converged reference
 // (agreement/error_split.h). Then the cheapest setting that should meet a tolerance is chosen by a model of the sweep,
 //   error2(system, n) = bias2(system) + factor n^-rate,   seconds(system, n) = start-up + n * seconds a sample,
-// and is not believed: it is rendered with fresh seeds, and where its error turns out too large the next one is.
-// Seconds are CPU seconds of all threads: they mean the same on a busy machine.
+// and is not believed: it is rendered with fresh seeds; where its error turns out too large the next one is, and where
+// it is far within the tolerance the same one with fewer samples. Seconds are CPU seconds of all threads: they mean the
+// same on a busy machine.
 #pragma once
 
 #include <functional>

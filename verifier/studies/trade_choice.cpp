@@ -10,6 +10,22 @@ namespace {
 
 constexpr double share_of_tolerance = 0.8;
 
+double bias2_of(const Candidate &candidate, const ErrorSplit &measured) {
+    return measured.bias2.seen() ? measured.bias2.value : std::clamp(measured.bias2.value, 0.0, candidate.bias2);
+}
+
+double noise2_of(const Candidate &candidate, const ErrorSplit &measured) {
+    return std::max(measured.mse.value - bias2_of(candidate, measured), measured.variance.value);
+}
+
+Candidate lengthened(Candidate candidate, int samples) {
+    const double longer = static_cast<double>(samples) / candidate.setting.samples;
+    candidate.setting.samples = samples;
+    candidate.process_s += candidate.own_s * (longer - 1);
+    candidate.own_s *= longer;
+    return candidate;
+}
+
 } // namespace
 
 std::vector<Candidate> candidates_for(const RendererModel &model, double tolerance,
@@ -36,17 +52,38 @@ std::vector<Candidate> candidates_for(const RendererModel &model, double toleran
 
 std::optional<Candidate> with_more_samples(const Candidate &candidate, const ErrorSplit &measured, double tolerance,
                                            double rate, const std::function<int(double)> &round_up) {
-    const double room = tolerance * tolerance * share_of_tolerance - std::max(0.0, measured.bias2.value);
+    const double bias2 = bias2_of(candidate, measured), noise2 = noise2_of(candidate, measured);
+    const double room = tolerance * tolerance * share_of_tolerance - bias2;
     if (!(room > 0)) return std::nullopt;
-    const double factor = std::clamp(std::pow(measured.variance.value / room, 1 / rate), 1.2, 64.0);
-    Candidate more = candidate;
-    more.setting.samples = std::max(round_up(candidate.setting.samples * factor), candidate.setting.samples + 1);
-    const double longer = static_cast<double>(more.setting.samples) / candidate.setting.samples;
-    more.process_s += candidate.own_s * (longer - 1);
-    more.own_s *= longer;
-    more.predicted = std::sqrt(std::max(0.0, measured.bias2.value) +
-                               measured.variance.value * std::pow(longer, -rate));
+    const double factor = std::clamp(std::pow(noise2 / room, 1 / rate), 1.2, 64.0);
+    const int samples = std::max(round_up(candidate.setting.samples * factor), candidate.setting.samples + 1);
+    Candidate more = lengthened(candidate, samples);
+    more.predicted =
+        std::sqrt(bias2 + noise2 * std::pow(static_cast<double>(samples) / candidate.setting.samples, -rate));
     return more;
+}
+
+std::optional<Candidate> with_fewer_samples(const Candidate &candidate, const ErrorSplit &measured, double tolerance,
+                                            double rate, const std::function<int(double)> &round_up) {
+    const double bias2 = bias2_of(candidate, measured), noise2 = noise2_of(candidate, measured);
+    const double room = tolerance * tolerance * share_of_tolerance - bias2;
+    if (!(room > noise2)) return std::nullopt;
+    const int samples = round_up(candidate.setting.samples * std::pow(noise2 / room, 1 / rate));
+    if (samples > 0.8 * candidate.setting.samples) return std::nullopt;
+    Candidate fewer = lengthened(candidate, samples);
+    fewer.predicted =
+        std::sqrt(bias2 + noise2 * std::pow(static_cast<double>(samples) / candidate.setting.samples, -rate));
+    return fewer;
+}
+
+double noise_beyond_law(const Candidate &candidate, const ErrorSplit &measured) {
+    const double foretold = candidate.predicted * candidate.predicted - candidate.bias2;
+    return foretold > 0 ? std::clamp(noise2_of(candidate, measured) / foretold, 1.0, 64.0) : 1;
+}
+
+Candidate with_noise_beyond_law(const Candidate &candidate, double times, double rate,
+                                const std::function<int(double)> &round_up) {
+    return lengthened(candidate, round_up(candidate.setting.samples * std::pow(times, 1 / rate)));
 }
 
 } // namespace threefold

@@ -37,7 +37,20 @@ std::vector<Candidate> candidates_for(const RendererModel &model, double toleran
 
 /// The same system with so many more samples that its noise, as it was measured, leaves the tolerance room; nothing
 /// where its bias alone is too large.
+///
+/// A bias that is not told from zero may be chance: then the sweep's word stands, and the rest of the error is noise.
 std::optional<Candidate> with_more_samples(const Candidate &candidate, const ErrorSplit &measured, double tolerance,
                                            double rate, const std::function<int(double)> &round_up);
+
+/// The same system with as many fewer samples as a measured error well within the tolerance allows; nothing where a
+/// fifth cannot be saved.
+std::optional<Candidate> with_fewer_samples(const Candidate &candidate, const ErrorSplit &measured, double tolerance,
+                                            double rate, const std::function<int(double)> &round_up);
+
+/// What a candidate that was rendered says of the others of its renderer: how many times the noise that was foretold,
+/// at least once. They look through the same pixels, so theirs is as much larger.
+double noise_beyond_law(const Candidate &candidate, const ErrorSplit &measured);
+Candidate with_noise_beyond_law(const Candidate &candidate, double times, double rate,
+                                const std::function<int(double)> &round_up);
 
 } // namespace threefold

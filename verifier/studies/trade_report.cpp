@@ -22,7 +22,7 @@ using report::Table;
 
 /// A root with its uncertainty; where it does not stand out of it, what it is under.
 std::string root_text(const Square &s) {
-    if (s.value > 2 * s.standard_error) return fmt::format("{:.2g}", s.root());
+    if (s.seen()) return fmt::format("{:.2g}", s.root());
     return fmt::format("< {:.1g}", std::sqrt(std::max(0.0, s.value) + 2 * s.standard_error));
 }
 

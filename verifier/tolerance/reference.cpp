@@ -126,6 +126,7 @@ Image single_path_picture(const Scene &scene, int samples, std::uint64_t seed) {
 }
 
 constexpr int pictures = 4, pilot_samples = 16, most_samples = 1 << 16;
+constexpr std::uint64_t most_refinements = 2; ///< the first aims by the pilot, the second mends what that missed
 
 std::vector<std::uint64_t> seeds_of(std::uint64_t seed, std::uint64_t stage) {
     std::vector<std::uint64_t> seeds;
@@ -134,14 +135,15 @@ std::vector<std::uint64_t> seeds_of(std::uint64_t seed, std::uint64_t stage) {
     return seeds;
 }
 
-/// Samples enough for the error, from a pilot's; nothing when the pilot is good enough.
-std::optional<int> samples_for(double pilot_error, const ReferenceRequest &request, double cpu_s_per_sample) {
-    if (pilot_error <= request.error) return std::nullopt;
+/// Samples enough for the error, from what so many had; nothing when that is good enough, or all that can be afforded.
+std::optional<int> samples_for(double error, int samples, const ReferenceRequest &request, double left_cpu_s,
+                               double cpu_s_per_sample) {
+    if (error <= request.error) return std::nullopt;
     // The error falls at least as the root of the samples, and mostly faster: asked for between the two.
-    const double wanted = pilot_samples * std::pow(pilot_error / request.error, 1.6);
-    const double affordable = cpu_s_per_sample > 0 ? request.most_cpu_s / cpu_s_per_sample : most_samples;
+    const double wanted = samples * std::pow(error / request.error, 1.6);
+    const double affordable = cpu_s_per_sample > 0 ? left_cpu_s / cpu_s_per_sample : most_samples;
     const double n = std::ceil(std::clamp(std::min(wanted, affordable), 1.0, double(most_samples)));
-    return n > pilot_samples ? std::optional(static_cast<int>(n)) : std::nullopt;
+    return n > samples ? std::optional(static_cast<int>(n)) : std::nullopt;
 }
 
 } // namespace
@@ -168,7 +170,7 @@ ReferencePicture make_reference(const Scene &scene, const ReferenceRequest &requ
         ReferencePicture r;
         for (int n = pilot_samples;;) {
             r = to_reference(*closed_form_pictures(scene, n, pictures, tracer::mix(request.seed ^ 0xc105edu)));
-            const auto more = n == pilot_samples ? samples_for(r.error, request, 0) : std::nullopt;
+            const auto more = n == pilot_samples ? samples_for(r.error, n, request, 0, 0) : std::nullopt;
             r.kind = fmt::format("closed form of the single path, {} points a pixel", pictures * n);
             if (!more) return r;
             n = std::min(*more, 4096);
@@ -191,7 +193,9 @@ ReferencePicture make_reference(const Scene &scene, const ReferenceRequest &requ
         r.cpu_seconds = cpu;
         r.kind = fmt::format("our tracer: {} samples a pixel, double, cut 1e-6 ({:.1e} of the light is dropped)",
                              pictures * *more, outcome.missing_weight_mean);
-        more = stage == 0 ? samples_for(r.error, request, outcome.cpu_seconds / *more) : std::nullopt;
+        more = stage < most_refinements
+                   ? samples_for(r.error, *more, request, request.most_cpu_s - cpu, outcome.cpu_seconds / *more)
+                   : std::nullopt;
     }
     return r;
 }

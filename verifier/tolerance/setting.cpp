@@ -38,6 +38,13 @@ int level_of(const Scene &scene, double surface_mm) {
     return fit ? fit->level : finest_icosphere;
 }
 
+/// A thousandth of the tolerance, as a decade: a tree loses far more than the cut, for lighter branches are more. Not
+/// below 1e-6, where our reference ends too.
+double finest_cut(double least_tolerance, double usual) {
+    const double decade = std::pow(10, std::floor(std::log10(1e-3 * least_tolerance) + 1e-9));
+    return std::clamp(decade, 1e-6, usual);
+}
+
 } // namespace
 
 bool Setting::same_system(const Setting &o) const {
@@ -107,7 +114,7 @@ std::vector<Setting> systems_of(const Witness &witness, const Scene &scene) {
     return all;
 }
 
-std::vector<SweepPoint> sweep_of(const Witness &witness, const Scene &scene, bool quick) {
+std::vector<SweepPoint> sweep_of(const Witness &witness, const Scene &scene, bool quick, double least_tolerance) {
     const Needs needed = needs(scene);
     const bool tree = needed.glass && needed.ray_tree;
     std::vector<SweepPoint> all;
@@ -115,7 +122,9 @@ std::vector<SweepPoint> sweep_of(const Witness &witness, const Scene &scene, boo
         const Setting middle{.samples = 16, .cut_weight = tree ? 1e-3 : 1e-6};
         if (tree) {
             all.push_back({{.samples = 16, .cut_weight = 1e-6}, Knob::truncation});
-            for (const double cut : {1e-1, 3e-2, 1e-2}) all.push_back({{.samples = 16, .cut_weight = cut}, Knob::truncation});
+            for (const double cut : {1e-1, 3e-2, 1e-2, 1e-4, 1e-5})
+                if (cut >= 1e-2 || least_tolerance <= 10 * cut)
+                    all.push_back({{.samples = 16, .cut_weight = cut}, Knob::truncation});
         }
         for (const int n : {16, 1, 4, 64}) {
             all.push_back({middle, Knob::samples});
@@ -134,22 +143,25 @@ std::vector<SweepPoint> sweep_of(const Witness &witness, const Scene &scene, boo
         return all;
     }
     if (cuts_trees(witness)) {
-        const int usual = 8;
-        const Setting middle{.samples = usual, .cut_weight = tree ? 1e-3 : 1e-6};
+        // Trees grow with every decade, so the cuts are told apart at the fewest samples: what is cut off is the same.
+        constexpr int few = 2;
+        const Setting middle{.samples = 8, .cut_weight = tree ? 1e-3 : 1e-6};
         if (tree) {
-            all.push_back({{.samples = usual, .cut_weight = quick ? 1e-4 : 1e-5}, Knob::truncation});
-            if (!quick) all.push_back({{.samples = usual, .cut_weight = 1e-4}, Knob::truncation});
-            all.push_back({{.samples = usual, .cut_weight = 1e-2}, Knob::truncation});
+            const double finest = finest_cut(least_tolerance, quick ? 1e-4 : 1e-5);
+            for (const double cut : {1e-6, 1e-5, 1e-4, 1e-2})
+                if (cut > 0.5 * finest) all.push_back({{.samples = few, .cut_weight = cut}, Knob::truncation});
         }
-        for (const int n : {usual, 2, 32}) {
+        for (const int n : {8, few, 32}) {
             all.push_back({middle, Knob::samples});
             all.back().setting.samples = n;
         }
         return all;
     }
     const Setting middle{.samples = 4, .surface_mm = surface_of_level(scene, 7)};
+    int finest = 0;
     if (needed.glass) {
-        const int finest = quick ? 7 : finest_icosphere;
+        constexpr double fine_tolerance = 3e-3;
+        finest = quick && least_tolerance > fine_tolerance ? 7 : finest_icosphere;
         all.push_back({{.samples = 4, .surface_mm = surface_of_level(scene, finest)}, Knob::tessellation});
         for (const int level : quick ? std::vector{5} : std::vector{4, 5, 6})
             all.push_back({{.samples = 4, .surface_mm = surface_of_level(scene, level)}, Knob::tessellation});
@@ -159,7 +171,7 @@ std::vector<SweepPoint> sweep_of(const Witness &witness, const Scene &scene, boo
         }
     }
     for (const int n : {4, 1, 16}) {
-        if (n == 4 && quick && needed.glass) continue; // the first one is it
+        if (n == 4 && finest == 7) continue; // the first one is it
         all.push_back({middle, Knob::samples});
         all.back().setting.samples = n;
     }

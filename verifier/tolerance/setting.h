@@ -42,8 +42,9 @@ struct SweepPoint {
 };
 
 /// The sweep: samples at the renderer's middle setting, and every other knob at one number of samples. The first point
-/// is that number at the finest setting, against which the others are held.
-std::vector<SweepPoint> sweep_of(const Witness &witness, const Scene &scene, bool quick);
+/// is that number at the finest setting, against which the others are held. The finest is as fine as `least_tolerance`,
+/// the smallest that is asked of the renderer, requires.
+std::vector<SweepPoint> sweep_of(const Witness &witness, const Scene &scene, bool quick, double least_tolerance);
 
 /// Everything but the samples, from cheap to as exact as is sensible: what is tried one after the other.
 std::vector<Setting> systems_of(const Witness &witness, const Scene &scene);

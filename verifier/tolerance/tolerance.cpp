@@ -102,24 +102,26 @@ private:
         return r;
     }
 
-    /// The coarsest system whose systematic error leaves room for noise; the law of the noise on the way.
+    /// The coarsest system whose systematic error leaves room for noise; the law of the noise on the way. That error is
+    /// read from the step to the next finer system with the same seeds: most of it goes in one step, and noise, which
+    /// hides it from a comparison with the reference in so few samples, goes out.
     std::size_t choose_system(const std::vector<Setting> &systems, double goal2) {
         const int few = pilot_samples(witness_);
         std::vector<NoisePoint> points;
-        std::size_t chosen = systems.size() - 1;
-        for (std::size_t i = 0; i < systems.size(); ++i) {
-            Setting pilot = systems[i];
-            pilot.samples = round_up_samples(witness_, few);
-            const Rendered r = take(pilot, 100 + i);
-            if (i == 0) points.push_back({double(pilot.samples), halves * noise2_of_mean(r.images, mean_)});
-            if (reference_) {
-                const ErrorSplit split = split_error(r.images, *reference_);
-                bias2_ = split.bias2.value > 2 * split.bias2.standard_error ? split.bias2.value : 0;
-            }
-            if (!reference_ || bias2_ <= goal2 / 2) {
-                chosen = i;
-                break;
-            }
+        const auto pilot = [&](std::size_t system) {
+            Setting setting = systems[system];
+            setting.samples = round_up_samples(witness_, few);
+            return take(setting, 100).images;
+        };
+        std::vector<Image> coarse = pilot(0);
+        points.push_back({double(round_up_samples(witness_, few)), halves * noise2_of_mean(coarse, mean_)});
+        std::size_t chosen = 0;
+        for (; chosen + 1 < systems.size(); ++chosen) {
+            std::vector<Image> fine = pilot(chosen + 1);
+            bias2_ = std::max(0.0, paired_bias2(coarse, fine, mean_).value);
+            if (bias2_ <= goal2 / 2) break;
+            coarse = std::move(fine);
+            bias2_ = 0; // of the last nothing is known
         }
         Setting more = systems[chosen];
         more.samples = round_up_samples(witness_, 4 * few);
