@@ -113,7 +113,7 @@ TEST_F(Picture, OfDarknessIsRefused) {
         FAIL() << "it has no tolerance";
     } catch (const Error &error) {
         EXPECT_EQ(error.code(), Exit::bad_data);
-        EXPECT_THAT(error.what(), HasSubstr("lit-orb: nothing in the picture is lit"));
+        EXPECT_THAT(error.what(), HasSubstr("lit-orb: nothing in the picture, glass left out, is lit"));
     }
 }
 

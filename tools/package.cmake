@@ -11,9 +11,10 @@ else()
 endif()
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
 set(CPACK_PACKAGE_DESCRIPTION
-"A scene is described once, rendered by POV-Ray, by Blender Cycles and by Threefold's own tracer, measured by the
-same code, held against exact optics, and judged: holds, fails or undecided. With the static library, its headers and
-CMake files for scenes and claims of one's own.")
+"A scene is described once, rendered by POV-Ray, by Blender Cycles and by
+Threefold's own tracer, measured by the same code, held against exact optics,
+and judged: holds, fails or undecided. With the static library, its headers
+and CMake files for scenes and claims of one's own.")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)

@@ -51,7 +51,8 @@ void compare_as_picture(Experiment &e, int replicates) {
     e.surface_tolerance_mm = 0.01 * pixel_at_orb_mm(e.scene);
     const double mean = unshadowed_mean_radiance(e.scene);
     if (!(mean > 0))
-        throw Error(Exit::bad_data, fmt::format("{}: nothing in the picture is lit or sends light", e.record.scene),
+        throw Error(Exit::bad_data,
+                    fmt::format("{}: nothing in the picture, glass left out, is lit or sends light", e.record.scene),
                     "point the camera at something, or --set environment.radiance=1");
     e.tile_budget = [=](const Accuracy &, const Accuracy &) {
         return std::vector<BudgetItem>{
