@@ -6,6 +6,8 @@
 
 #include <csignal>
 #include <fstream>
+#include <map>
+#include <optional>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <thread>
@@ -46,6 +48,24 @@ std::vector<std::string> all_names() {
 
 TEST(Renderers, AreInstalled) {
     for (const Witness &w : find_witnesses(witness_names())) EXPECT_TRUE(w.present()) << w.title << " is missing";
+}
+
+// One ray a pixel, yet noisy: Cycles draws branches and lights at random. The other two have nothing to gain.
+TEST(CheckTolerance, GivesAPictureOfGivenPointsMoreSamplesWhereItIsNoisy) {
+    const auto samples_with = [](std::optional<double> tolerance) {
+        CheckRequest r = request({"setup"});
+        r.witnesses = find_witnesses({"tracer", "cycles"});
+        r.tolerance = tolerance;
+        r.presets = {Preset::text};
+        std::map<std::string, int> samples;
+        for (const RenderRecord &record : check(r).result.renders)
+            if (record.experiment == "setup-picture") samples[record.witness] = record.samples_per_pixel;
+        return samples;
+    };
+    const auto usual = samples_with({}), fine = samples_with(0.01);
+    ASSERT_TRUE(usual.contains("cycles"));
+    EXPECT_GT(fine.at("cycles"), usual.at("cycles"));
+    EXPECT_EQ(fine.at("tracer"), usual.at("tracer"));
 }
 
 class EveryClaim : public testing::TestWithParam<std::string> {};

@@ -123,12 +123,13 @@ private:
     }
 
     std::optional<NoiseWanted> noise_wanted(const Witness &w, const Experiment &e) const {
-        if (!request_.tolerance || w.pictures || e.sampling != Sampling::box) return std::nullopt;
+        if (!request_.tolerance || w.pictures) return std::nullopt;
+        const bool box = e.sampling == Sampling::box;
+        if (!box && !e.tile_budget) return std::nullopt;
         NoiseWanted wanted{*request_.tolerance};
-        if (!e.tile_budget) {
-            wanted.least_samples = e.samples_per_pixel;
-            return wanted;
-        }
+        // Through given points of the pixels only what is drawn at random has noise: for others there is none to judge by.
+        if (!box || !e.tile_budget) wanted.least_samples = e.samples_per_pixel;
+        if (!e.tile_budget) return wanted;
         // Of independent pixels a tile's mean has 1 / tile_px of their noise; an interval within the tolerance takes
         // four standard errors or so.
         constexpr double standard_errors = 4;

@@ -222,7 +222,8 @@ Rendered render(const Witness &witness, RenderJob job, const RenderOptions &opti
     record.width_px = job.scene.camera.image_width_px();
     record.height_px = job.scene.camera.image_height_px();
     record.replicates = static_cast<int>(job.replicates.size());
-    record.samples_per_pixel = job.sampling == Sampling::box ? job.samples_per_pixel : 1;
+    const bool several = job.sampling == Sampling::box || record.accuracy.random_branches; // else one ray tells all
+    record.samples_per_pixel = several ? job.samples_per_pixel : 1;
     record.scene_hash = scene_hash(job.scene);
     return *std::move(r);
 }
