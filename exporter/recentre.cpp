@@ -6,7 +6,6 @@
 #include <limits>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -15,9 +14,6 @@
 #include "scenes/geometry.h"
 
 namespace threefold {
-namespace {
-
-constexpr double infinite = std::numeric_limits<double>::infinity();
 
 std::vector<Sphere> glass_spheres(const Scene &scene) {
     std::vector<Sphere> spheres;
@@ -34,6 +30,10 @@ std::vector<Sphere> glass_spheres(const Scene &scene) {
                    object.shape);
     return spheres;
 }
+
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// A clearance of orbs and meshes below this share of the radius is a contact that was meant (and rounded), not a gap to
 /// be kept open: a spot of a thousandth of the radius at most is then not told from the glass. A flat backdrop shows it

@@ -3,6 +3,9 @@
 // origin, so an adapter moves the orb there and picks a unit from the extent and the smallest gap. Millimetres.
 #pragma once
 
+#include <vector>
+
+#include "scenes/access.h"
 #include "scenes/scene.h"
 
 namespace threefold {
@@ -15,5 +18,8 @@ struct Frame {
 };
 
 Frame render_frame(const Scene &scene);
+
+/// Every surface of glass: the balls, and of shells the outer and, where there is a hollow, the inner one.
+std::vector<Sphere> glass_spheres(const Scene &scene);
 
 } // namespace threefold

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "exporter/recentre.h"
 #include "exporter/sample_rays.h"
-#include "scenes/access.h"
 
 namespace threefold {
 
@@ -13,12 +13,7 @@ double grazing_mm(double radius_mm, double surface_mm) { return 1e-4 * radius_mm
 
 double grazing_share(const Scene &scene, double surface_mm) {
     const std::vector<Ray> rays = sample_rays(scene.camera);
-    std::vector<Sphere> edges;
-    for (const Object &object : scene.objects) {
-        if (const auto orb = outer_sphere(object.shape)) edges.push_back(*orb);
-        if (const auto *shell = std::get_if<GlassShell>(&object.shape); shell && shell->inner_radius_mm() > 0)
-            edges.push_back({shell->centre_mm, shell->inner_radius_mm()});
-    }
+    const std::vector<Sphere> edges = glass_spheres(scene);
     const auto grazes = [&](const Ray &ray) {
         return std::ranges::any_of(edges, [&](const Sphere &edge) {
             const Passing passing = pass(ray, edge.centre_mm);

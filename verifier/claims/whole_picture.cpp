@@ -45,7 +45,7 @@ void compare_as_picture(Experiment &e, int replicates) {
     e.samples_per_pixel = 96;
     e.shift_replicates = true;
     e.replicates = replicates;
-    e.cut_weight = 1e-5; // at 1e-3 a rim before something bright lacks, in all branches together, up to a fifth of a tile
+    e.cut_weight = 1e-5; // at 1e-3 a rim before something bright lacked a fifth of the picture's mean radiance
     e.tile_px = 16;
     e.tiles_needed_share = tiles_needed;
     e.surface_tolerance_mm = 0.01 * pixel_at_orb_mm(e.scene);

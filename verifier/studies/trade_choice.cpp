@@ -26,6 +26,14 @@ Candidate lengthened(Candidate candidate, int samples) {
     return candidate;
 }
 
+/// With what is foretold by the measured bias and noise.
+Candidate lengthened(const Candidate &candidate, int samples, double bias2, double noise2, double rate) {
+    Candidate other = lengthened(candidate, samples);
+    const double longer = static_cast<double>(samples) / candidate.setting.samples;
+    other.predicted = std::sqrt(bias2 + noise2 * std::pow(longer, -rate));
+    return other;
+}
+
 } // namespace
 
 std::vector<Candidate> candidates_for(const RendererModel &model, double tolerance,
@@ -57,10 +65,7 @@ std::optional<Candidate> with_more_samples(const Candidate &candidate, const Err
     if (!(room > 0)) return std::nullopt;
     const double factor = std::clamp(std::pow(noise2 / room, 1 / rate), 1.2, 64.0);
     const int samples = std::max(round_up(candidate.setting.samples * factor), candidate.setting.samples + 1);
-    Candidate more = lengthened(candidate, samples);
-    more.predicted =
-        std::sqrt(bias2 + noise2 * std::pow(static_cast<double>(samples) / candidate.setting.samples, -rate));
-    return more;
+    return lengthened(candidate, samples, bias2, noise2, rate);
 }
 
 std::optional<Candidate> with_fewer_samples(const Candidate &candidate, const ErrorSplit &measured, double tolerance,
@@ -70,10 +75,7 @@ std::optional<Candidate> with_fewer_samples(const Candidate &candidate, const Er
     if (!(room > noise2)) return std::nullopt;
     const int samples = round_up(candidate.setting.samples * std::pow(noise2 / room, 1 / rate));
     if (samples > 0.8 * candidate.setting.samples) return std::nullopt;
-    Candidate fewer = lengthened(candidate, samples);
-    fewer.predicted =
-        std::sqrt(bias2 + noise2 * std::pow(static_cast<double>(samples) / candidate.setting.samples, -rate));
-    return fewer;
+    return lengthened(candidate, samples, bias2, noise2, rate);
 }
 
 double noise_beyond_law(const Candidate &candidate, const ErrorSplit &measured) {
