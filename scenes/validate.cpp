@@ -210,37 +210,37 @@ double picture_memory_bytes(const Camera &camera) {
 Needs needs(const Scene &scene) {
     Needs n;
     bool diffuse = false;
-    const std::vector<Directional> lights = lights_on_diffuse(scene);
-    Rgb irradiance(0);
-    for (const Directional &light : lights) irradiance += light.irradiance;
     for (const Object &object : scene.objects) {
         if (const Glass *glass = glass_of(object.shape)) {
             n.glass = true;
             n.ray_tree |= glass->coating == Coating::fresnel;
         }
-        if (const Surface *surface = surface_of(object.shape))
-            n.greatest_radiance = std::max(
-                n.greatest_radiance,
-                std::visit(overloaded{
-                               [&](const Diffuse &d) {
-                                   diffuse = true;
-                                   return greatest(greatest_value(d.reflectance) * irradiance) / std::numbers::pi;
-                               },
-                               [](const Emissive &e) { return greatest(greatest_value(e.radiance)); },
-                               [](const CoordinateCard &) { return 1.0; },
-                           },
-                           *surface));
+        if (const Surface *surface = surface_of(object.shape)) diffuse |= std::holds_alternative<Diffuse>(*surface);
     }
     if (scene.environment) {
         const Environment &e = *scene.environment;
         n.environment_on_diffuse = diffuse && e.radiance != Rgb(0) && e.dome_directions == 0;
-        n.greatest_radiance = std::max(n.greatest_radiance, greatest(e.radiance));
     }
-    n.direct_light = diffuse && !lights.empty();
-    n.many_lights = diffuse && lights.size() > 1;
+    const std::size_t lights = diffuse ? lights_on_diffuse(scene).size() : 0;
+    n.direct_light = lights > 0;
+    n.many_lights = lights > 1;
     n.glass_shadow = n.glass && n.direct_light && scene.glass_shadow.rule != GlassShadow::Rule::none;
     n.caustics = n.glass_shadow && scene.glass_shadow.rule == GlassShadow::Rule::caustic;
     return n;
+}
+
+double greatest_radiance(const Scene &scene) {
+    Rgb irradiance(0);
+    for (const Directional &light : lights_on_diffuse(scene)) irradiance += light.irradiance;
+    const auto of_surface = overloaded{
+        [&](const Diffuse &d) { return greatest(greatest_value(d.reflectance) * irradiance) / std::numbers::pi; },
+        [](const Emissive &e) { return greatest(greatest_value(e.radiance)); },
+        [](const CoordinateCard &) { return 1.0; },
+    };
+    double most = scene.environment ? greatest(scene.environment->radiance) : 0;
+    for (const Object &object : scene.objects)
+        if (const Surface *surface = surface_of(object.shape)) most = std::max(most, std::visit(of_surface, *surface));
+    return most;
 }
 
 void validate(const Scene &scene) {
@@ -267,7 +267,7 @@ void validate(const Scene &scene) {
                            scene.glass_shadow.transmittance));
     validate(scene.camera);
     require_glass_apart(scene);
-    if (!(needs(scene).greatest_radiance > 0))
+    if (!(greatest_radiance(scene) > 0))
         refuse("the scene is dark: nothing in it gives light (no light, no emitter, no environment)");
 }
 

@@ -22,10 +22,12 @@ struct Needs {
     bool environment_on_diffuse = false; ///< the environment lights a diffuse surface, and no dome stands for it
     bool glass_shadow = false;           ///< glass stands between a light and a diffuse surface by the scene's rule
     bool caustics = false;
-    double greatest_radiance = 0; ///< upper bound over the picture; glass never amplifies
 };
 
 Needs needs(const Scene &scene);
+
+/// Upper bound over the picture, whatever the camera: glass never amplifies. Reads every texel.
+double greatest_radiance(const Scene &scene);
 
 /// Bytes that one picture of this camera takes while it is made and measured (an upper estimate).
 double picture_memory_bytes(const Camera &camera);

@@ -262,7 +262,7 @@ CyclesScene describe_for_cycles(const RenderJob &job) {
                           {"replicates", write_replicates(job, made)}};
 
     made.accuracy.random_branches = is_random(required);
-    made.accuracy.radiance_step = required.greatest_radiance * float_epsilon / 2;
+    made.accuracy.radiance_step = greatest_radiance(scene) * float_epsilon / 2;
     made.accuracy.rounding_mm = float_epsilon * frame.extent_mm;
     // The first sample goes just through the pixel's centre. Blender's Gaussian of width w, which spreads the others,
     // is exp(-2 (6 x / w)^2): standard deviation w / 12, and 0.01 is its least width.

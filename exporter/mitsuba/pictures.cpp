@@ -96,7 +96,7 @@ MitsubaJob to_mitsuba_job(const RenderJob &job, std::string_view label) {
     made.height_px = job.scene.camera.image_height_px() * made.finer;
 
     constexpr double epsilon = std::numeric_limits<float>::epsilon();
-    made.accuracy.radiance_step = needed.greatest_radiance * epsilon / 2;
+    made.accuracy.radiance_step = greatest_radiance(job.scene) * epsilon / 2;
     made.accuracy.rounding_mm = epsilon * extent_mm(job.scene);
     made.accuracy.random_branches = needed.ray_tree || needed.many_lights;
     // A sample lies anywhere in its part of the pixel, and the part's centre up to half a part from the place asked

@@ -129,7 +129,7 @@ Exported compile_povray(const RenderJob &job) {
     povray::refuse_what_cannot_be_said(job);
     const Needs needed = needs(job.scene);
     const povray::Grid grid = grid_of(job, needed);
-    const double greatest = needed.greatest_radiance * povray::greatest_share(job.scene, grid);
+    const double greatest = greatest_radiance(job.scene) * povray::greatest_share(job.scene, grid);
     povray::Writer writer{.job = job,
                           .grid = grid,
                           .space = povray::choose_space(job.scene),

@@ -29,7 +29,7 @@ std::vector<std::uint64_t> seeds_of(std::uint64_t seed, std::uint64_t stage) {
 class Search {
 public:
     Search(const Witness &witness, const Scene &scene, const ToleranceRequest &request)
-        : witness_(witness), scene_(scene), request_(request), greatest_(needs(scene).greatest_radiance) {}
+        : witness_(witness), scene_(scene), request_(request), greatest_(greatest_radiance(scene)) {}
 
     WithinTolerance run() {
         const double goal2 = request_.tolerance * request_.tolerance * share_of_tolerance;

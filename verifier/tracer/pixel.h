@@ -27,7 +27,8 @@ public:
     PixelRenderer(const World<Real> &world, const RenderJob &job, const Replicate &replicate,
                   Sampler sampler = Sampler::sobol)
         : world_(world), film_(job.scene.camera), camera_(job.scene.camera), replicate_(replicate), sampler_(sampler),
-          samples_(job.sampling == Sampling::box ? job.samples_per_pixel : 1), box_(job.sampling == Sampling::box) {}
+          samples_(job.sampling == Sampling::box ? job.samples_per_pixel : 1), box_(job.sampling == Sampling::box),
+          surroundings_(surroundings_of_orbs()) {}
 
     /// Adds to pixels[row * width + column], some of it only with `finish`. `missing`, by pixel: weight of the branches
     /// that were dropped, mean over the samples.
@@ -99,20 +100,43 @@ private:
         return at + replicate_.film_offset_px;
     }
 
-    /// By the angle between the pixel's middle and the orb: for every sample of the pixel, so that the choice does not
-    /// depend on where the samples lie.
-    bool sees_no_glass(int column, int row) const {
-        const Ray middle = film_.ray(pixel_sample(camera_, column, row) + replicate_.film_offset_px);
+    /// A cone about the direction to an orb's centre (perspective), or a cylinder (orthographic), that holds all pixels
+    /// the orb is seen in.
+    struct Surroundings {
+        Vec3 to_centre;
+        double sine, cosine; ///< of the cone's angle
+        double radius_mm;    ///< of the cylinder
+    };
+
+    std::vector<Surroundings> surroundings_of_orbs() const {
+        std::vector<Surroundings> all;
         const double reach = film_.pixel() * std::numbers::sqrt2 / 2; // angle or mm
         for (const Orb<Real> &orb : world_.orbs()) {
-            const Vec3 to_centre = Vec3(orb.centre) - middle.origin_mm;
-            const double across = glm::length(glm::cross(to_centre, middle.direction));
-            if (camera_.projection == Projection::orthographic) {
-                if (across <= static_cast<double>(orb.outer) + reach) return false;
-            } else {
-                const double angle = std::atan2(across, glm::dot(to_centre, middle.direction));
-                const double sine = std::min(1.0, static_cast<double>(orb.outer) / glm::length(to_centre));
-                if (angle <= std::asin(sine) + reach) return false;
+            const Vec3 to_centre = Vec3(orb.centre) - camera_.eye_mm;
+            const auto outer_mm = static_cast<double>(orb.outer);
+            const double angle = std::asin(std::min(1.0, outer_mm / glm::length(to_centre))) + reach;
+            all.push_back({to_centre, std::sin(angle), std::cos(angle), outer_mm + reach});
+        }
+        return all;
+    }
+
+    /// By where the pixel's middle looks: for every sample of the pixel, so that the choice does not depend on where the
+    /// samples lie.
+    bool sees_no_glass(int column, int row) const {
+        const Ray middle = film_.ray(pixel_sample(camera_, column, row) + replicate_.film_offset_px);
+        for (const Surroundings &orb : surroundings_) {
+            switch (camera_.projection) {
+            case Projection::perspective: {
+                const double across = glm::length(glm::cross(orb.to_centre, middle.direction));
+                // The sine of the angle by which the cone is wider than the pixel is off its axis.
+                if (orb.sine * glm::dot(orb.to_centre, middle.direction) >= orb.cosine * across) return false;
+                break;
+            }
+            case Projection::orthographic: {
+                const Vec3 to_centre = orb.to_centre + (camera_.eye_mm - middle.origin_mm);
+                if (glm::length(glm::cross(to_centre, middle.direction)) <= orb.radius_mm) return false;
+                break;
+            }
             }
         }
         return true;
@@ -349,6 +373,7 @@ private:
     Sampler sampler_;
     int samples_;
     bool box_;
+    std::vector<Surroundings> surroundings_;
 };
 
 /// A square of the picture's pixels: tiles are the same for any number of threads, and so is what shadow rays are cast

@@ -64,6 +64,7 @@ public:
     /// Of so many samples; without this, by Sobol's sequence.
     void use(Sampler kind, int samples) {
         kind_ = kind;
+        if (kind != Sampler::stratified) return;
         columns_ = 1;
         for (int n = 1; n * n <= samples; ++n)
             if (samples % n == 0) columns_ = static_cast<std::uint32_t>(n);
