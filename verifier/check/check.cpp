@@ -73,8 +73,21 @@ public:
 private:
     std::vector<PlannedClaim> make_plan() {
         std::vector<PlannedClaim> plan = plan_of(request_);
-        for (const PlannedClaim &p : plan) experiments_ += static_cast<double>(p.experiments.size());
+        for (const PlannedClaim &p : plan)
+            for (const Experiment &e : p.experiments) work_ += work_of(e);
         return plan;
+    }
+
+    /// Seconds or so, for foretelling the rest: to start a program, and the rays of its picture.
+    static double work_of(const Experiment &e) {
+        if (e.inspect) return 0.1;
+        return 2 + 1e-6 * e.scene.camera.image_width_px() * e.scene.camera.image_height_px() * e.samples_per_pixel *
+                       e.replicates;
+    }
+
+    void finish(const Witness &w, const Experiment &e) {
+        const double done = finished_[w.name] += work_of(e);
+        if (request_.on_progress) request_.on_progress(w.name, std::min(1.0, done / work_), e.name);
     }
 
     WitnessRecord &record_of(const Witness &w) {
@@ -91,8 +104,7 @@ private:
     bool inspect(const Witness &w, const Experiment &e, ClaimResult &result) {
         const WitnessRecord &record = record_of(w);
         if (!record.present || broken_.contains(w.name)) return false;
-        const double done = ++finished_[w.name];
-        if (request_.on_progress) request_.on_progress(w.name, done / experiments_, e.name);
+        finish(w, e);
         const std::vector<Reading> readings = e.inspect(scene_for(w, e));
         for (const Expected &expected : e.predict(Accuracy{})) {
             Row row = row_of(e.name, w.name, expected);
@@ -110,24 +122,30 @@ private:
     }
 
     Question question_for(const Witness &w, const Experiment &e, const std::string &label) {
-        const double done = finished_[w.name];
-        const auto tell = [this, name = w.name, now = e.name, done](double share) {
-            if (request_.on_progress) request_.on_progress(name, (done + share) / experiments_, now);
+        const auto tell = [this, name = w.name, now = e.name, done = finished_[w.name], work = work_of(e)](double share) {
+            if (request_.on_progress) request_.on_progress(name, std::min(1.0, (done + share * work) / work_), now);
         };
         tell(0);
         RenderJob job = job_of(e, seed_of(w), request_.threads);
         if (const auto fault = request_.injected.find(w.name); fault != request_.injected.end())
             job = with_fault(std::move(job), fault->second);
-        return {&w, std::move(job), {request_.folder, label, request_.tracer, request_.time_limit, tell},
-                noise_wanted(w, e)};
+        return {&w,
+                std::move(job),
+                {request_.folder, label, request_.tracer, request_.time_limit, tell},
+                noise_wanted(w, e),
+                tiles_wanted(w, e)};
+    }
+
+    /// Through given points of the pixels only what is drawn at random has noise.
+    static bool is_noisy(const Witness &w, const Experiment &e) {
+        return !w.pictures && (e.sampling == Sampling::box || (w.adapter && w.adapter->sample_factor > 1));
     }
 
     std::optional<NoiseWanted> noise_wanted(const Witness &w, const Experiment &e) const {
-        if (!request_.tolerance || w.pictures) return std::nullopt;
+        if (!request_.tolerance || !is_noisy(w, e)) return std::nullopt;
         const bool box = e.sampling == Sampling::box;
         if (!box && !e.tile_budget) return std::nullopt;
         NoiseWanted wanted{*request_.tolerance};
-        // Through given points of the pixels only what is drawn at random has noise: for others there is none to judge by.
         if (!box || !e.tile_budget) wanted.least_samples = e.samples_per_pixel;
         if (!e.tile_budget) return wanted;
         // Of independent pixels a tile's mean has 1 / tile_px of their noise; an interval within the tolerance takes
@@ -135,6 +153,15 @@ private:
         constexpr double standard_errors = 4;
         wanted.absolute = total(e.tile_budget(Accuracy{}, Accuracy{})) * e.tile_px / standard_errors;
         return wanted;
+    }
+
+    /// Where a share of the tiles decides, their noise differs too much for a number of samples fixed beforehand.
+    std::optional<TilesWanted> tiles_wanted(const Witness &w, const Experiment &e) const {
+        if (!e.tile_budget || e.tiles_needed_share == 1 || e.sampling == Sampling::box || !is_noisy(w, e))
+            return std::nullopt;
+        constexpr int most_times = 16; // as long does it take at most
+        return TilesWanted{e.tile_px, total(e.tile_budget(Accuracy{}, Accuracy{})), e.tiles_needed_share,
+                           e.samples_per_pixel, most_times * e.samples_per_pixel};
     }
 
     void keep(RenderRecord record, const Witness &w, const Experiment &e, Preset preset) {
@@ -153,12 +180,12 @@ private:
         for (const Witness &w : request_.witnesses)
             if (record_of(w).present && !broken_.contains(w.name)) {
                 questions.push_back(question_for(w, e, e.name));
-                ++finished_[w.name];
             }
         std::vector<Testimony> heard;
         const bool at_once = request_.threads != 1;
         double longest = 0, all = 0; // seconds
         for (Answer &answer : hear(std::move(questions), at_once)) {
+            finish(*answer.witness, e);
             if (answer.failure) {
                 note_failure(*answer.witness, e, answer.failure);
                 continue;
@@ -169,8 +196,6 @@ private:
                 longest = std::max(longest, record.seconds);
                 all += record.seconds;
             }
-            if (request_.on_progress)
-                request_.on_progress(answer.witness->name, finished_[answer.witness->name] / experiments_, e.name);
             heard.push_back({answer.witness, *std::move(answer.rendered), seed_of(*answer.witness),
                              answer.samples_per_pixel});
         }
@@ -415,7 +440,7 @@ private:
     const CheckRequest &request_;
     RunResult result_;
     Exit exit_ = Exit::holds;
-    double experiments_ = 0;
+    double work_ = 0;
     std::map<std::string, double> finished_;
     std::set<std::string> broken_;
     std::vector<std::string> refusals_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verifier/check/hearing.h"
 
+#include <algorithm>
 #include <future>
 #include <mutex>
 #include <utility>
@@ -19,7 +20,9 @@ std::vector<Answer> hear(std::vector<Question> questions, bool at_once) {
         answers.push_back(std::async(at_once ? std::launch::async : std::launch::deferred, [&q] {
             Answer answer{q.witness, std::nullopt, nullptr, 0};
             try {
-                if (q.noise) q.job.samples_per_pixel = samples_for_noise(*q.witness, q.job, *q.noise, q.options);
+                const int for_noise = q.noise ? samples_for_noise(*q.witness, q.job, *q.noise, q.options) : 0;
+                const int for_tiles = q.tiles ? samples_for_tiles(*q.witness, q.job, *q.tiles, q.options) : 0;
+                if (q.noise || q.tiles) q.job.samples_per_pixel = std::max(for_noise, for_tiles);
                 answer.samples_per_pixel = q.job.samples_per_pixel;
                 answer.rendered = render(*q.witness, std::move(q.job), q.options);
             } catch (...) {

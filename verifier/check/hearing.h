@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "verifier/tolerance/tile_noise.h"
 #include "verifier/tolerance/tolerance.h"
 #include "verifier/witness/witness.h"
 
@@ -16,7 +17,9 @@ struct Question {
     const Witness *witness;
     RenderJob job;
     RenderOptions options; ///< on_progress is called from one thread at a time, whichever
-    std::optional<NoiseWanted> noise{}; ///< chooses the samples, by a pilot with this renderer
+    /// They choose the samples, by pilots with this renderer; the more of both count.
+    std::optional<NoiseWanted> noise{};
+    std::optional<TilesWanted> tiles{};
 };
 
 struct Answer {

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include "verifier/tolerance/tile_noise.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
+
+#include "verifier/agreement/equivalence.h"
+#include "verifier/tracer/sampler.h"
+
+namespace threefold {
+
+namespace {
+
+constexpr int pilot_share = 4; ///< the pilot's pictures have so many times fewer samples
+
+/// Chance that a tile is found to hold whose mean has the standard error 1 and no error besides: |z| + t s <= tolerance,
+/// z normal and s^2 (n - 1) of chi squared, by Simpson's rule over the quantiles of s^2.
+double chance_to_hold(double tolerance, int replicates) {
+    constexpr int steps = 64;
+    const double freedom = replicates - 1;
+    const boost::math::chi_squared spread(freedom);
+    const boost::math::normal normal;
+    const double t = boost::math::quantile(complement(boost::math::students_t(freedom), significance));
+    const auto at = [&](double share) {
+        const double s = std::sqrt(boost::math::quantile(spread, std::clamp(share, 1e-9, 1 - 1e-9)) / freedom);
+        const double room = tolerance - t * s;
+        return room > 0 ? 2 * boost::math::cdf(normal, room) - 1 : 0;
+    };
+    double sum = at(0) + at(1);
+    for (int i = 1; i < steps; ++i) sum += (i % 2 ? 4 : 2) * at(static_cast<double>(i) / steps);
+    return sum / (3 * steps);
+}
+
+} // namespace
+
+std::vector<double> tile_noise(const Image &a, const Image &b, int tile_px) {
+    std::vector<double> deviations;
+    for (int top = 0; top < a.height; top += tile_px)
+        for (int left = 0; left < a.width; left += tile_px) {
+            const int bottom = std::min(top + tile_px, a.height), right = std::min(left + tile_px, a.width);
+            Rgb squares(0);
+            for (int row = top; row < bottom; ++row)
+                for (int column = left; column < right; ++column) {
+                    const Rgb d = a.at(column, row) - b.at(column, row);
+                    squares += d * d;
+                }
+            // The difference has twice a picture's variance.
+            const double pixels = static_cast<double>(bottom - top) * (right - left);
+            deviations.push_back(std::sqrt(std::max({squares.r, squares.g, squares.b}) / 2) / pixels);
+        }
+    return deviations;
+}
+
+double expected_share(std::span<const double> deviations, int replicates, double tolerance) {
+    // The chance by the tolerance over the standard error, in steps: it is asked for every tile.
+    constexpr double step = 0.05, surely = 20;
+    static constexpr int steps = static_cast<int>(surely / step);
+    std::vector<double> chance;
+    for (int i = 0; i <= steps; ++i) chance.push_back(chance_to_hold(i * step, replicates));
+    double sum = 0;
+    for (const double deviation : deviations) {
+        const double x = tolerance * std::sqrt(static_cast<double>(replicates)) / deviation / step; // or infinite
+        sum += x < steps ? chance[static_cast<std::size_t>(x)] : 1;
+    }
+    return deviations.empty() ? 1 : sum / static_cast<double>(deviations.size());
+}
+
+int samples_for_tiles(const Witness &witness, const RenderJob &job, const TilesWanted &wanted,
+                      const RenderOptions &options) {
+    RenderJob pilot = job;
+    pilot.samples_per_pixel = std::max(1, wanted.least_samples / pilot_share);
+    pilot.replicates.clear();
+    for (std::uint64_t k = 0; k < 2; ++k)
+        pilot.replicates.push_back({tracer::mix(tracer::mix(job.replicates.front().seed + 500) + k), {0, 0}});
+    RenderOptions quiet = options;
+    quiet.on_progress = nullptr; // the share is that of the picture to come
+    quiet.label += "-pilot";
+    const std::vector<Image> pictures = render(witness, pilot, quiet).images;
+    const std::vector<double> few = tile_noise(pictures[0], pictures[1], wanted.tile_px);
+    // Half of what may be left open is for true differences, and for what a pilot does not see.
+    const double share = (1 + wanted.needed_share) / 2;
+    const auto replicates = static_cast<int>(job.replicates.size());
+    int samples = wanted.least_samples;
+    while (samples < wanted.most_samples) {
+        std::vector<double> deviations = few;
+        for (double &d : deviations) d *= std::sqrt(static_cast<double>(pilot.samples_per_pixel) / samples);
+        if (expected_share(deviations, replicates, wanted.tolerance) >= share) break;
+        samples = std::min(wanted.most_samples, samples + std::max(1, samples / 20));
+    }
+    return samples;
+}
+
+} // namespace threefold
