@@ -2,12 +2,18 @@
 // The options of each command, with their help; where they are put when the command line is read.
 #pragma once
 
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include "tools/command_optics.h"
 #include "tools/commands.h"
 
 namespace CLI {
 class App;
-}
+class Option;
+} // namespace CLI
 
 namespace threefold {
 
@@ -24,5 +30,14 @@ void add_power_options(CLI::App &command, PowerCommand &power);
 void add_trade_options(CLI::App &command, TradeCommand &trade);
 void add_extremes_options(CLI::App &command, ExtremesCommand &extremes);
 void add_scope_options(CLI::App &command, ScopeCommand &scope);
+
+/// Options that several commands share.
+CLI::Option *
+add_renderers_option(CLI::App &command, std::vector<std::string> &with,
+                     std::string_view help = "Renderers, comma-separated: tracer, povray, cycles (default: "
+                                             "all that are installed)");
+CLI::Option *add_time_limit_option(CLI::App &command, double &seconds,
+                                   std::string_view help = "Seconds until a renderer is given up");
+CLI::Option *add_json_option(CLI::App &command, std::optional<std::string> &file);
 
 } // namespace threefold

@@ -11,12 +11,9 @@ void add_check_options(CLI::App &command, CheckCommand &request) {
         "--mitsuba", request.mitsuba,
         "Instead: whether a Mitsuba 0.5 to 3 file is the same picture in every renderer, tile by tile (its "
         "parameters: threefold show --mitsuba FILE)");
-    command.add_flag("--quick", request.quick, "Smaller pictures: an answer in two minutes or so");
-    command
-        .add_option("--with", request.with,
-                    "Renderers, comma-separated: tracer, povray, cycles (default: all that are installed)")
-        ->delimiter(',')
-        ->allow_extra_args(false);
+    command.add_flag("--quick", request.quick,
+                     "Smaller pictures and one preset: one claim in a minute or less, all in some eight");
+    add_renderers_option(command, request.with);
     command.add_option(
         "--preset", request.preset,
         "Values of the study's wording (text), of its scene files (published), or both (the default; with "
@@ -29,7 +26,7 @@ void add_check_options(CLI::App &command, CheckCommand &request) {
         .add_option("-o,--output", request.folder,
                     "Folder of the run: report.html, result.json, inputs, pictures, logs; a killed run goes on there")
         ->capture_default_str();
-    command.add_option("--json", request.json, "Also write the result as JSON here (-: stdout)");
+    add_json_option(command, request.json);
     command.add_option("--junit", request.junit, "Also write the result as JUnit XML here");
     command
         .add_option(
@@ -38,9 +35,7 @@ void add_check_options(CLI::App &command, CheckCommand &request) {
             "(see: threefold list)")
         ->allow_extra_args(false);
     command.add_option("--seed", request.seed, "Seed")->capture_default_str();
-    command.add_option("--timeout", request.time_limit_s, "Seconds until a renderer is given up")
-        ->capture_default_str()
-        ->check(CLI::PositiveNumber);
+    add_time_limit_option(command, request.time_limit_s, "Seconds until a renderer is given up on one experiment");
     command
         .add_option(
             "--tolerance", request.tolerance,

@@ -37,9 +37,7 @@ void add_export_options(CLI::App &command, ExportRequest &request) {
         ->capture_default_str()
         ->check(CLI::PositiveNumber);
     command.add_option("--seed", request.seed, "blender: seed")->capture_default_str();
-    command.add_option("--timeout", request.time_limit_s, "blender, glb: seconds until Blender is given up")
-        ->capture_default_str()
-        ->check(CLI::PositiveNumber);
+    add_time_limit_option(command, request.time_limit_s, "blender, glb: seconds until Blender is given up");
     command.footer("For example:\n"
                    "  threefold export hollow --to blender -o hollow-blend    change the wall in the orb's modifier\n"
                    "  threefold export hollow --set orb.wall_mm=2.72 --to glb -o glb\n"
@@ -91,18 +89,12 @@ void add_render_options(CLI::App &command, RenderRequest &request) {
         ->capture_default_str()
         ->excludes(tolerance);
     command.add_option("--keep", request.keep, "Keep generated inputs, log and raw pictures in this folder");
-    command.add_option("--timeout", request.time_limit_s, "Seconds until a renderer is given up")
-        ->capture_default_str()
-        ->check(CLI::PositiveNumber);
+    add_time_limit_option(command, request.time_limit_s);
 }
 
 void add_gallery_options(CLI::App &command, GalleryCommand &request) {
     command.add_option("figures", request.figures, "Figures (1B, 2, 3A, ...); none: all");
-    command
-        .add_option("--with", request.with,
-                    "Renderers, comma-separated: tracer, povray, cycles (default: all that are installed)")
-        ->delimiter(',')
-        ->allow_extra_args(false);
+    add_renderers_option(command, request.with);
     command
         .add_option("--preset", request.preset,
                     "Values of the study's wording (text) or of its scene files (published)")
@@ -120,9 +112,7 @@ void add_gallery_options(CLI::App &command, GalleryCommand &request) {
                     "Folder: index.html, contact-sheet.png, pictures; a killed run goes on there")
         ->capture_default_str();
     command.add_option("--seed", request.seed, "Seed")->capture_default_str();
-    command.add_option("--timeout", request.time_limit_s, "Seconds until a renderer is given up")
-        ->capture_default_str()
-        ->check(CLI::PositiveNumber);
+    add_time_limit_option(command, request.time_limit_s);
 }
 
 } // namespace threefold

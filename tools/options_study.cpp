@@ -11,11 +11,8 @@ namespace threefold {
 
 void add_power_options(CLI::App &command, PowerCommand &power) {
     command.add_flag("--quick", power.quick, "Our tracer alone, and a coarser search for the smallest faults");
-    command
-        .add_option("--with", power.with,
-                    "Honest renderers beside the tracer, which gets the faults (default: all that are installed)")
-        ->delimiter(',')
-        ->allow_extra_args(false);
+    add_renderers_option(command, power.with,
+                         "Honest renderers beside the tracer, which gets the faults (default: all that are installed)");
     command.add_option("--without", power.without, "Claims to leave out, comma-separated")
         ->delimiter(',')
         ->allow_extra_args(false);
@@ -31,21 +28,15 @@ void add_power_options(CLI::App &command, PowerCommand &power) {
     command.add_option("--seed", power.seed, "Seed")->capture_default_str();
     command.add_option("-o,--output", power.folder, "Folder of the study: power.json, power.md, honest pictures")
         ->capture_default_str();
-    command.add_option("--json", power.json, "Also write the result as JSON here (-: stdout)");
+    add_json_option(command, power.json);
     command.add_option("--markdown", power.markdown, "Also write the table as a page of Markdown here (-: stdout)");
-    command.add_option("--timeout", power.time_limit_s, "Seconds until a renderer is given up")
-        ->capture_default_str()
-        ->check(CLI::PositiveNumber);
+    add_time_limit_option(command, power.time_limit_s);
 }
 
 void add_trade_options(CLI::App &command, TradeCommand &trade) {
     add_scene_options(command, trade.scene);
     command.add_flag("--quick", trade.quick, "Fewer settings, 64 px and less to pay: some minutes");
-    command
-        .add_option("--with", trade.with,
-                    "Renderers, comma-separated: tracer, povray, cycles (default: all that are installed)")
-        ->delimiter(',')
-        ->allow_extra_args(false);
+    add_renderers_option(command, trade.with);
     command
         .add_option("--tolerance", trade.tolerances,
                     "Relative RMS error to be met: over pixels and channels, over the mean radiance (1e-2); "
@@ -66,11 +57,9 @@ void add_trade_options(CLI::App &command, TradeCommand &trade) {
         .add_option("-o,--output", trade.folder,
                     "Folder: report.html, trade.json, trade.csv, trade.md, pictures; a killed run goes on there")
         ->capture_default_str();
-    command.add_option("--json", trade.json, "Also write the result as JSON here (-: stdout)");
+    add_json_option(command, trade.json);
     command.add_option("--markdown", trade.markdown, "Also write the tables as a page of Markdown here (-: stdout)");
-    command.add_option("--timeout", trade.time_limit_s, "Seconds until a renderer is given up")
-        ->capture_default_str()
-        ->check(CLI::PositiveNumber);
+    add_time_limit_option(command, trade.time_limit_s);
     command.footer(
         "For example:\n"
         "  threefold trade hollow --quick                              some minutes, all renderers\n"
@@ -100,12 +89,10 @@ void add_extremes_options(CLI::App &command, ExtremesCommand &extremes) {
         "  threefold extremes --sweeps wall,backdrop --with tracer,povray");
     command.add_flag("--quick", extremes.quick,
                      "Every third point or so, and our tracer alone unless --with says more");
-    command
-        .add_option("--with", extremes.with,
-                    "Renderers, comma-separated: tracer, povray, cycles (default: all that are installed); the tracer "
-                    "takes part in double and in float")
-        ->delimiter(',')
-        ->allow_extra_args(false);
+    add_renderers_option(
+        command, extremes.with,
+        "Renderers, comma-separated: tracer, povray, cycles (default: all that are installed); the tracer "
+        "takes part in double and in float");
     command
         .add_option("--sweeps", extremes.sweeps,
                     fmt::format("Only these, comma-separated: {}", fmt::join(extreme_sweep_names(), ", ")))
@@ -117,10 +104,8 @@ void add_extremes_options(CLI::App &command, ExtremesCommand &extremes) {
             "Folder of the study: extremes.svg (the map), extremes.md, extremes.json, inputs, pictures, logs; a "
             "killed study goes on there")
         ->capture_default_str();
-    command.add_option("--json", extremes.json, "Also write the result as JSON here (-: stdout)");
-    command.add_option("--timeout", extremes.time_limit_s, "Seconds until a renderer is given up")
-        ->capture_default_str()
-        ->check(CLI::PositiveNumber);
+    add_json_option(command, extremes.json);
+    add_time_limit_option(command, extremes.time_limit_s);
 }
 
 void add_scope_options(CLI::App &command, ScopeCommand &scope) {
@@ -167,7 +152,7 @@ void add_scope_options(CLI::App &command, ScopeCommand &scope) {
         ->capture_default_str()
         ->check(CLI::Range(1.0, 1e6));
     command.add_option("--impact-mm", scope.impact_mm, "The one ray's distance from the axis")->capture_default_str();
-    command.add_option("--json", scope.json, "Also write the result as JSON here (-: stdout)");
+    add_json_option(command, scope.json);
     command.add_option("--markdown", scope.markdown, "Also write it as a page of Markdown here (-: stdout)");
     command.footer(
         "Every model leaves something out. For each claim and each effect this says how far the effect could\n"

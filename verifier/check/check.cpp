@@ -122,7 +122,8 @@ private:
     }
 
     Question question_for(const Witness &w, const Experiment &e, const std::string &label) {
-        const auto tell = [this, name = w.name, now = e.name, done = finished_[w.name], work = work_of(e)](double share) {
+        const auto tell = [this, name = w.name, now = e.name, done = finished_[w.name],
+                           work = work_of(e)](double share) {
             if (request_.on_progress) request_.on_progress(name, std::min(1.0, (done + share * work) / work_), now);
         };
         tell(0);
@@ -196,8 +197,8 @@ private:
                 longest = std::max(longest, record.seconds);
                 all += record.seconds;
             }
-            heard.push_back({answer.witness, *std::move(answer.rendered), seed_of(*answer.witness),
-                             answer.samples_per_pixel});
+            heard.push_back(
+                {answer.witness, *std::move(answer.rendered), seed_of(*answer.witness), answer.samples_per_pixel});
         }
         result_.renderer_seconds += at_once ? longest : all;
         return heard;

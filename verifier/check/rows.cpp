@@ -91,8 +91,7 @@ std::vector<Row> judged_rows(const Experiment &e, const std::vector<Testimony> &
     }
     for (const auto &[quantity, of_all] : between)
         for (std::size_t i = 0; i < of_all.size(); ++i)
-            for (std::size_t j = i + 1; j < of_all.size(); ++j)
-                rows.push_back(judged(compared(of_all[i], of_all[j])));
+            for (std::size_t j = i + 1; j < of_all.size(); ++j) rows.push_back(judged(compared(of_all[i], of_all[j])));
     return rows;
 }
 

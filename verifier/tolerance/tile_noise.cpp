@@ -17,8 +17,8 @@ namespace {
 
 constexpr int pilot_share = 4; ///< the pilot's pictures have so many times fewer samples
 
-/// Chance that a tile is found to hold whose mean has the standard error 1 and no error besides: |z| + t s <= tolerance,
-/// z normal and s^2 (n - 1) of chi squared, by Simpson's rule over the quantiles of s^2.
+/// Chance that a tile is found to hold whose mean has the standard error 1 and no error besides: |z| + t s <=
+/// tolerance, z normal and s^2 (n - 1) of chi squared, by Simpson's rule over the quantiles of s^2.
 double chance_to_hold(double tolerance, int replicates) {
     constexpr int steps = 64;
     const double freedom = replicates - 1;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// How many samples a picture takes whose tiles are to be told to agree with another's (verifier/agreement/tiles.h), by a
-// pilot: two pictures with few samples. Noise differs from tile to tile by orders of magnitude, most of all where glass
-// splits rays, so the noise of the whole picture would not tell.
+// How many samples a picture takes whose tiles are to be told to agree with another's (verifier/agreement/tiles.h), by
+// a pilot: two pictures with few samples. Noise differs from tile to tile by orders of magnitude, most of all where
+// glass splits rays, so the noise of the whole picture would not tell.
 #pragma once
 
 #include <span>
