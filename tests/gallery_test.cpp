@@ -63,6 +63,31 @@ TEST(Figures, AreOfScenesAndParametersThatTheCatalogueHas) {
             }
 }
 
+TEST(Figures, MoveWhatThePresetMoves) {
+    const std::vector<SceneRecipe> scenes = built_in_scenes();
+    const FigureWay way = figure("6B").ways.front();
+    const SceneRecipe &recipe = find_scene(scenes, way.averaged.front().scene);
+    const auto robe_from_orb = [&](Preset preset) {
+        Parameters values(recipe.parameters, preset);
+        for (const Assignment &a : assignments_of(way, way.averaged.front(), recipe, preset, {}, 0.1))
+            values.set(a.name, a.value);
+        const auto lowest_x = [](const Scene &scene) {
+            double x = 1e9;
+            for (const Object &object : scene.objects)
+                if (object.name == "robe")
+                    for (const Vec3 &v : std::get<Mesh>(object.shape).vertices_mm) x = std::min(x, v.x);
+            return x;
+        };
+        Parameters unmoved = values;
+        unmoved.set("robe.shift_mm", "0");
+        return std::pair{values.number("orb.shift_mm"), lowest_x(recipe.make(values)) - lowest_x(recipe.make(unmoved))};
+    };
+    EXPECT_EQ(robe_from_orb(Preset::text).first, -10) << "its words move the orb";
+    EXPECT_EQ(robe_from_orb(Preset::text).second, 0);
+    EXPECT_EQ(robe_from_orb(Preset::published).first, 0);
+    EXPECT_NEAR(robe_from_orb(Preset::published).second, 10, 1e-9) << "its files move the relief";
+}
+
 TEST(Figures, ScaleTheFilmAndTheWindowTogether) {
     const SceneRecipe recipe{
         "s", "", {{.name = "image.width_px"}, {.name = "image.crop_x_px"}, {.name = "orb.wall_mm"}}, {}};

@@ -7,8 +7,11 @@
 
 #include <glm/geometric.hpp>
 
+#include "exporter/temporary_folder.h"
 #include "scenes/catalogue/catalogue.h"
 #include "scenes/catalogue/white_spots.h"
+#include "tests/quick_request.h"
+#include "verifier/check/check.h"
 #include "verifier/claims/claim.h"
 #include "verifier/claims/orb_light.h"
 #include "verifier/claims/orb_marks.h"
@@ -146,6 +149,16 @@ TEST(Flips, AreBracketedByExperimentsOfThatName) {
         for (const FlipPoint &flip : claim.flips(context))
             for (const std::string &side : flip.bracket) EXPECT_TRUE(experiments.contains(side)) << side;
     }
+}
+
+TEST(Tint, GlassThatDoesNotRefractReflectsNoMoreTowardsItsRim) {
+    const TemporaryFolder folder;
+    CheckRequest request = quick_request<CheckRequest>(folder.path(), {"tint"});
+    EXPECT_EQ(check(request).result.claims.back().verdict, Verdict::holds);
+    request.assignments = {{"glass.index", "1"}};
+    const ClaimResult tint = check(request).result.claims.back();
+    EXPECT_EQ(tint.verdict, Verdict::fails);
+    EXPECT_TRUE(tint.blamed.empty()) << "optics denies it, and nobody is at fault";
 }
 
 } // namespace

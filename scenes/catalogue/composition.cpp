@@ -103,6 +103,7 @@ Mesh make_robe(const Parameters &p) {
                           view.eye_mm.y + scale * study_robe_mm_from_axis.y, view.plane_z_mm);
         for (Vec3 &v : robe.vertices_mm) v = origin + study_robe_scale * scale * v;
     }
+    for (Vec3 &v : robe.vertices_mm) v.x += p.number("robe.shift_mm");
     const double nearest = distance_to(robe, orb_centre(p));
     if (nearest < p.number("orb.radius_mm"))
         throw Error(Exit::bad_data,
@@ -181,6 +182,7 @@ Specs composition_parameters() {
         file("robe.mesh", "a relief of one's own, placed as the study places its own; none: a generated one"),
         unit("robe.mesh_unit_mm"),
         axes("robe.mesh_axes"),
+        length("robe.shift_mm", "robe moved sideways, to the right of the picture", 0),
         file("robe.texture",
              "an image for the relief, by its mesh's texture coordinates; for the generated one, of the whole picture"),
         {.name = "robe.texture_gamma",

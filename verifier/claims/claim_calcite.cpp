@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // "A solid calcite ball distorts far more than its double image separates" (figure 7 of the study). Both are lengths on
 // the card: how far the middle of a pixel's two landing points lies from where its ray would land without the ball, and
-// how far the two lie apart; root mean square, without the largest 0.5 %, over the part of the ball that shows the card in both images.
+// how far the two lie apart; root mean square, without the largest 0.5 %, over the part of the ball that shows the card
+// in both images.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -307,8 +308,8 @@ double ratio_over(const Calcite &c, Vec2 aside_mm, const Through &ordinary, cons
 }
 
 Through isotropic(const Calcite &c, double index) {
-    return [orb = optics::solid_ball(c.ordinary_orb.optics.outer_mm, index), centre = c.ordinary_orb.centre_mm](
-               const Ray &ray) { return optics::transmitted_ray(orb, centre, ray); };
+    return [orb = optics::solid_ball(c.ordinary_orb.optics.outer_mm, index),
+            centre = c.ordinary_orb.centre_mm](const Ray &ray) { return optics::transmitted_ray(orb, centre, ray); };
 }
 
 /// The crystal as it is: over the optic axis's directions, the ratio farthest from that of two isotropic balls.
@@ -358,29 +359,29 @@ std::vector<ScopeNumber> scope(const ClaimContext &context, const ScopeSettings 
     const RealCrystal real = real_crystal(c);
     const double walk_off = optics::greatest_walk_off_rad({o, e, {0, 0, 1}}) * 180 / std::numbers::pi;
     const LitBounds lit = nothing_is_lit(c.ordinary);
-    return {{ratio, "", here, margin_to(here, {c.least_ratio}), margin_words({c.least_ratio}, ""),
-             EffectBounds{
-                 .polarisation = Bound::none("the two rays are polarised across each other and never exchanged; where "
-                                             "each lands is read, not how bright it is"),
-                 .dispersion = {coloured,
-                                fmt::format("the closed form from {:g} to {:g} nm, Abbe numbers {:g} (ordinary) and {:g} "
-                                            "(extraordinary): {:.3g} to {:.3g}",
-                                            settings.least_wavelength_nm, settings.greatest_wavelength_nm,
-                                            settings.calcite_abbe_ordinary, settings.calcite_abbe_extraordinary, least,
-                                            greatest)},
-                 .absorption = directions_know_no_absorption(),
-                 .birefringence = {real.towards,
-                                   fmt::format("rays traced through the uniaxial crystal itself, walk-off (up to {:.2f} "
-                                               "degrees) and an index by direction included, the optic axis at 13 "
-                                               "angles to the sight line: {:.3g} to {:.3g} in place of {:.3g}; what "
-                                               "counts is the way towards the threshold",
-                                               walk_off, real.least, real.greatest, model)},
-                 .light_size = lit.light_size,
-                 .caustics = lit.caustics,
-                 .interreflection = lit.interreflection,
-                 .pupil = by_pupil(settings, [&](Vec2 aside) {
-                     return ratio_over(c, aside, isotropic(c, o), isotropic(c, e));
-                 })}}};
+    return {
+        {ratio, "", here, margin_to(here, {c.least_ratio}), margin_words({c.least_ratio}, ""),
+         EffectBounds{
+             .polarisation = Bound::none("the two rays are polarised across each other and never exchanged; where "
+                                         "each lands is read, not how bright it is"),
+             .dispersion = {coloured,
+                            fmt::format("the closed form from {:g} to {:g} nm, Abbe numbers {:g} (ordinary) and {:g} "
+                                        "(extraordinary): {:.3g} to {:.3g}",
+                                        settings.least_wavelength_nm, settings.greatest_wavelength_nm,
+                                        settings.calcite_abbe_ordinary, settings.calcite_abbe_extraordinary, least,
+                                        greatest)},
+             .absorption = directions_know_no_absorption(),
+             .birefringence = {real.towards,
+                               fmt::format("rays traced through the uniaxial crystal itself, walk-off (up to {:.2f} "
+                                           "degrees) and an index by direction included, the optic axis at 13 "
+                                           "angles to the sight line: {:.3g} to {:.3g} in place of {:.3g}; what "
+                                           "counts is the way towards the threshold",
+                                           walk_off, real.least, real.greatest, model)},
+             .light_size = lit.light_size,
+             .caustics = lit.caustics,
+             .interreflection = lit.interreflection,
+             .pupil = by_pupil(settings,
+                               [&](Vec2 aside) { return ratio_over(c, aside, isotropic(c, o), isotropic(c, e)); })}}};
 }
 
 } // namespace
@@ -434,9 +435,10 @@ Claim claim_calcite() {
                                                    "the ratio is {:.3f}.",
                                                    c.visible_mm / radius, (po + px) / 2 / std::abs(po - px))};
         if (const auto equal = index_of_ratio(context, 1))
-            notes.push_back(fmt::format("Both would be equal at an extraordinary index of {:.4f}: no mineral is so "
-                                        "birefringent (calcite: {:g} against {:g}).",
-                                        *equal, x, o));
+            notes.push_back(
+                fmt::format("Both would be equal at an extraordinary index of {:.4f}, {:.3f} from the ordinary one "
+                            "(here {:g} against {:g}, {:.3f}).",
+                            *equal, std::abs(o - *equal), x, o, std::abs(o - x)));
         const double walk_off = std::atan(std::abs(o * o - x * x) / (2 * o * x));
         notes.push_back(fmt::format(
             "Left out, as in the study: in real calcite the extraordinary index runs from {:g} along the optic axis, "

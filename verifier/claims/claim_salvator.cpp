@@ -18,7 +18,8 @@ Claim claim_salvator() {
                             }};
         std::vector<Experiment> all{context.quick ? whole_picture(context, "salvator", 88, 130, 5)
                                                   : whole_picture(context, "salvator", 176, 259, 5)};
-        if (all.front().record.parameters.at("robe.mesh").empty())
+        const auto &parameters = all.front().record.parameters;
+        if (parameters.at("robe.mesh").empty() && std::stod(parameters.at("robe.shift_mm")) == 0)
             all.push_back(border_experiment(context, "salvator", 176, 259, border));
         return all;
     };

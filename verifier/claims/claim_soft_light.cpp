@@ -169,7 +169,8 @@ double direct_at(const Stage &stage, const std::vector<Directional> &lights, dou
 std::vector<double> with_reflected_light(const Stage &stage, const Scene &scene) {
     const std::vector<Directional> lights = lights_on_diffuse(scene);
     const double gap = stage.board.centre_mm.z - stage.wall.centre_mm.z;
-    const double foot = stage.board.centre_mm.y - glm::length(stage.board.half_v_mm); // of the board, where heights begin
+    const double foot =
+        stage.board.centre_mm.y - glm::length(stage.board.half_v_mm); // of the board, where heights begin
     const auto &board = std::get<Rgb>(std::get<Diffuse>(stage.board.surface).reflectance);
     const double half_wall = glm::length(stage.wall.half_v_mm);
     const auto extra = thrown_back({gap, 2 * glm::length(stage.board.half_v_mm), stage.reflectance, board.r,
@@ -185,7 +186,8 @@ std::vector<ScopeNumber> scope(const ClaimContext &context, const ScopeSettings 
     const Experiment e = penumbra_experiment(context, "", "", {}, Relation::above);
     const Stage stage = stage_of(e);
     const std::vector<Reading> here = readings(irradiance_by_row(stage, e.scene), stage),
-                               discs = readings(irradiance_by_row(stage, with_discs(e.scene, settings.light_deg)), stage),
+                               discs =
+                                   readings(irradiance_by_row(stage, with_discs(e.scene, settings.light_deg)), stage),
                                lit = readings(with_reflected_light(stage, e.scene), stage);
     std::vector<ScopeNumber> numbers;
     const char *no_glass = "there is no glass in its scene";
@@ -193,11 +195,13 @@ std::vector<ScopeNumber> scope(const ClaimContext &context, const ScopeSettings 
         const bool is_seen = here[k].quantity == seen;
         const Expected row = expected_row(e, here[k].quantity);
         EffectBounds bounds = none_of_them(no_glass);
-        bounds.polarisation = Bound::none("there is no glass in its scene, and a matt wall takes all polarisations alike");
-        bounds.light_size = {std::abs(discs[k].value - here[k].value),
-                             fmt::format("each of the lights as seven over a disc of {:g} degrees, their shadows' edges by "
-                                         "the closed form: {:.4g} in place of {:.4g}",
-                                         settings.light_deg, discs[k].value, here[k].value)};
+        bounds.polarisation =
+            Bound::none("there is no glass in its scene, and a matt wall takes all polarisations alike");
+        bounds.light_size = {
+            std::abs(discs[k].value - here[k].value),
+            fmt::format("each of the lights as seven over a disc of {:g} degrees, their shadows' edges by "
+                        "the closed form: {:.4g} in place of {:.4g}",
+                        settings.light_deg, discs[k].value, here[k].value)};
         bounds.interreflection = {std::abs(lit[k].value - here[k].value),
                                   fmt::format("wall and board as two parallel planes that light each other, all "
                                               "reflections, form factors of long strips: {:.4g} in place of {:.4g}",
@@ -253,11 +257,11 @@ Claim claim_soft_light() {
                 "The lights' irradiances sum to {:.4g} on planes that face them ({:.4g} of it the cluster's); on "
                 "the upright wall they leave {:.4g}, with the surroundings.",
                 sum, key_light_directions * key_light_irradiance, exact[0].value),
-            fmt::format("The penumbra is {:.3g} mm wide at {:g} mm from the edge that casts it ({:.3g} degrees as the "
-                        "wall sees the cluster), {:.3g} minutes of arc for the eye. Its width is that of an even ramp "
+            fmt::format("The penumbra is {:.3g} mm wide at {:g} mm from the edge that casts it ({:.2g} of that "
+                        "distance), {:.3g} minutes of arc for the eye. Its width is that of an even ramp "
                         "with the same standard deviation.",
                         exact[2].value, stage.board.centre_mm.z - stage.wall.centre_mm.z,
-                        arcmin(exact[2].value, stage.board.centre_mm.z - stage.wall.centre_mm.z) / 60, exact[3].value)};
+                        exact[2].value / (stage.board.centre_mm.z - stage.wall.centre_mm.z), exact[3].value)};
     };
     claim.flips = [](const ClaimContext &context) {
         std::vector<FlipPoint> flips;

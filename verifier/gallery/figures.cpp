@@ -16,8 +16,9 @@ constexpr Crop orb_window{872, 1530, 512, 512};
 constexpr int fine_width_px = 3072, fine_height_px = 4521;
 constexpr Crop boundary_window{2513, 3300, 512, 512};
 
-const FigureSetting thick_wall{"orb.wall_mm", "2.6", "2.72"}, shifted{"orb.shift_mm", "-10", "-10"},
-    cloth{"robe.surface", "cloth", "cloth"};
+const FigureSetting thick_wall{"orb.wall_mm", "2.6", "2.72"}, cloth{"robe.surface", "cloth", "cloth"};
+// The study's words move the orb to the left, its files the relief to the right.
+const FigureSetting orb_shifted{"orb.shift_mm", "-10", "0"}, robe_shifted{"robe.shift_mm", "0", "10"};
 constexpr std::string_view crop_parameters[]{"image.crop_x_px", "image.crop_y_px", "image.crop_width_px",
                                              "image.crop_height_px"};
 
@@ -56,34 +57,44 @@ std::vector<Figure> study_figures() {
         {"1B", "The whole composition, with a hollow orb.", {whole("salvator", whole_width_px, whole_height_px)}},
         {"2", "The set-up seen from aside: relief, hand, orb and camera.", {whole("setup", 1024, 512)}},
         {"3A",
-         "A solid orb turns what lies behind it upside down, and hides the palm.",
+         "A solid orb. In the study it turns what lies behind it upside down, and hides the palm (claims "
+         "solid-vs-hollow, "
+         "palm).",
          {orb_of_painting({{"orb.kind", "solid", "solid"}}), whole("solid")}},
-        {"3B", "A hollow orb leaves it upright and nearly in its place.", {orb_of_painting({}), whole("hollow")}},
+        {"3B",
+         "A hollow orb. In the study it leaves that upright and nearly in its place.",
+         {orb_of_painting({}), whole("hollow")}},
         {"4A",
          "Three lines behind an orb, seen from aside: how the next three pictures are made.",
          {whole("three-lines-setup")}},
         {"4B",
-         "Three lines behind a hollow orb: the middle one crosses its boundary unbroken.",
+         "Three lines behind a hollow orb. In the study the middle one crosses its boundary unbroken (claim "
+         "three-lines).",
          {whole("three-lines-hollow")}},
         {"4C",
-         "The same three lines behind a solid orb: again only the middle one crosses unbroken.",
+         "The same three lines behind a solid orb. In the study, again, only the middle one crosses unbroken.",
          {whole("three-lines-solid")}},
-        {"4D", "The middle line bent outside the orb: now it breaks too.", {whole("three-lines-bent")}},
+        {"4D", "The middle line bent outside the orb. In the study it breaks now too.", {whole("three-lines-bent")}},
         {"5C",
-         "The study's thin wall: the folds cross the upper right boundary with no break that one notices.",
+         "The study's thin wall: it saw the folds cross the upper right boundary with no break that one notices. What "
+         "an "
+         "eye would notice is the matter of the claim wall-limit.",
          {boundary_of_painting({}), with("folds", {cloth})}},
         {"5D",
-         "Five folds cross the boundary; four of them aim at the orb's centre, the leftmost does not and breaks.",
+         "Five folds cross the boundary; four of them aim at the orb's centre, the leftmost does not. In the study "
+         "that one "
+         "breaks (claim folds).",
          {with("folds", {cloth})}},
         {"6A",
-         "A wall of twice the thickness: a dark layer, a reflection of the surroundings, cuts the folds.",
+         "A wall of twice the thickness. In the study a dark layer, a reflection of the surroundings, cuts the folds "
+         "(claims rim-reads-wall, dark-layer).",
          {boundary_of_painting({thick_wall}), with("folds", {cloth, thick_wall})}},
         {"6B",
-         "Orb and robe 1 cm out of line: the folds break.",
-         {boundary_of_painting({shifted}), with("folds", {cloth, shifted})}},
+         "Orb and robe 1 cm out of line. In the study the folds break (claim shift).",
+         {boundary_of_painting({orb_shifted, robe_shifted}), with("folds", {cloth, orb_shifted, robe_shifted})}},
         {"7",
-         "A solid ball of calcite, as the mean of two balls with its two indices: it distorts far more than its double "
-         "image separates.",
+         "A solid ball of calcite, as the mean of two balls with its two indices: in the study it distorts far more "
+         "than its double image separates (claim calcite).",
          {{{{"calcite", {{"calcite.ray", "ordinary", "ordinary"}}},
             {"calcite", {{"calcite.ray", "extraordinary", "extraordinary"}}}}},
           {{{"solid", {{"glass.index", "1.486", "1.486"}}}, {"solid", {{"glass.index", "1.658", "1.658"}}}}}}},
