@@ -272,6 +272,12 @@ private:
         result.name = planned.claim->name;
         result.statement = planned.claim->statement;
         result.preset = to_string(planned.context.preset);
+        if (!planned.problem.empty()) {
+            refusals_.push_back(planned.problem);
+            result.summary = "It could not be asked: these values leave it no scene.";
+            result.notes = {planned.problem};
+            return result;
+        }
         bool complete = true;
         std::map<std::string, std::vector<Testimony>> heard;
         for (const Experiment &e : planned.experiments) {
@@ -311,6 +317,16 @@ private:
             blame_the_odd_one_out(result);
         if (planned.claim->summary) result.summary = planned.claim->summary(planned.context, result.verdict);
         if (planned.claim->notes) result.notes = planned.claim->notes(planned.context);
+        for (const Experiment &e : planned.experiments)
+            if (std::ranges::any_of(result.rows, [&](const Row &row) {
+                    return row.experiment == e.name && std::isnan(row.measured.mean);
+                }))
+                result.notes.push_back(fmt::format(
+                    "With these values \"{}\" cannot be read: what is looked for is hidden, too narrow, or not "
+                    "in the picture. Of that nothing is said.",
+                    e.title));
+        for (const std::string &name : unused_values(planned))
+            result.notes.push_back(fmt::format("This claim sets {} itself: your value is not used.", name));
         if (planned.claim->flips) result.flips = planned.claim->flips(planned.context);
         if (planned.claim->scope) result.scope = scope_findings(planned.claim->scope(planned.context, {}));
         return result;

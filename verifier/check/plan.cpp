@@ -2,8 +2,12 @@
 #include "verifier/check/plan.h"
 
 #include <algorithm>
+#include <optional>
+
+#include <fmt/format.h>
 
 #include "exporter/scene_json.h"
+#include "scenes/error.h"
 #include "scenes/validate.h"
 #include "verifier/tracer/sampler.h"
 
@@ -23,6 +27,25 @@ void require_known(const std::vector<Assignment> &assignments, const std::vector
         if (!std::ranges::binary_search(valid, a.name))
             throw Error(Exit::usage, unknown_name("parameter", a.name, valid));
     }
+}
+
+/// A value that no scene can have is the user's mistake; one that does not go with the others may suit another claim.
+void require_in_range(const CheckRequest &request) {
+    for (const Preset preset : request.presets)
+        for (const SceneRecipe &recipe : request.scenes)
+            for (const Assignment &a : request.assignments) {
+                Parameters values(recipe.parameters, preset);
+                if (values.has(a.name)) values.set(a.name, a.value);
+            }
+}
+
+std::vector<Experiment> experiments_of(const Claim &claim, const ClaimContext &context) {
+    std::vector<Experiment> all = claim.experiments(context);
+    for (Experiment &e : all) {
+        validate(e.scene);
+        e.record.scene_hash = scene_hash(e.scene);
+    }
+    return all;
 }
 
 } // namespace
@@ -61,21 +84,57 @@ RenderJob job_of(const Experiment &e, std::uint64_t seed, int threads) {
 }
 
 std::vector<PlannedClaim> plan_of(const CheckRequest &request) {
+    require_in_range(request);
     std::vector<PlannedClaim> plan;
+    std::optional<Error> first;
     for (const bool calibrating : {true, false})
         for (const Preset preset : request.presets)
             for (const Claim &claim : request.claims) {
                 if ((claim.name == calibration_name) != calibrating) continue;
                 const ClaimContext context{request.scenes, preset, request.assignments, request.quick};
-                plan.push_back({&claim, context, claim.experiments(context)});
+                plan.push_back({&claim, context, {}});
+                try {
+                    plan.back().experiments = experiments_of(claim, context);
+                } catch (const Error &error) {
+                    if (error.code() != Exit::bad_data) throw;
+                    plan.back().problem = fmt::format("{} ({}) has no scene with these values: {}", claim.name,
+                                                      to_string(preset), error.what());
+                    if (!first) first = Error(error.code(), plan.back().problem, error.hint());
+                }
             }
-    require_known(request.assignments, plan);
-    for (PlannedClaim &p : plan)
-        for (Experiment &e : p.experiments) {
-            validate(e.scene);
-            e.record.scene_hash = scene_hash(e.scene);
-        }
+    const auto calibrates = [](const PlannedClaim &p) { return p.claim->name == calibration_name; };
+    const bool some = std::ranges::any_of(plan, [&](const auto &p) { return !calibrates(p) && p.problem.empty(); });
+    const bool all_calibrate =
+        std::ranges::all_of(plan, [&](const auto &p) { return !calibrates(p) || p.problem.empty(); });
+    if (first && !(some && all_calibrate)) throw *first;
+    if (!first) require_known(request.assignments, plan); // what a claim left out would have known is not known here
     return plan;
+}
+
+namespace {
+
+/// As a record tells it.
+std::string normalised(const Assignment &a, const ClaimContext &context, std::string_view scene) {
+    Parameters values(find_scene(context.scenes, scene).parameters, context.preset);
+    values.set(a.name, a.value);
+    return values.text(a.name);
+}
+
+} // namespace
+
+std::vector<std::string> unused_values(const PlannedClaim &planned) {
+    std::vector<std::string> names;
+    for (const Assignment &a : planned.context.assignments) {
+        bool known = false, used = false;
+        for (const Experiment &e : planned.experiments) {
+            const auto value = e.record.parameters.find(a.name);
+            if (value == e.record.parameters.end()) continue;
+            known = true;
+            used = used || value->second == normalised(a, planned.context, e.record.scene);
+        }
+        if (known && !used && std::ranges::count(names, a.name) == 0) names.push_back(a.name);
+    }
+    return names;
 }
 
 std::vector<PlannedJob> planned_jobs(const CheckRequest &request) {

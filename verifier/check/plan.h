@@ -18,10 +18,15 @@ struct PlannedClaim {
     const Claim *claim;
     ClaimContext context;
     std::vector<Experiment> experiments;
+    std::string problem{}; ///< why these values leave it no scene; then it has no experiments
 };
 
-/// Calibration first. Throws as `check` does.
+/// Calibration first. A claim that has no scene with these values is left out, with its problem; where that is every
+/// claim, or a value is wrong in itself, it throws as `check` does.
 std::vector<PlannedClaim> plan_of(const CheckRequest &request);
+
+/// Names of the request's values that some of the claim's scenes have as a parameter, and none has as asked.
+std::vector<std::string> unused_values(const PlannedClaim &planned);
 
 std::vector<Replicate> replicates_of(const Experiment &e, std::uint64_t seed);
 Camera camera_of(const Experiment &e, const Replicate &replicate);

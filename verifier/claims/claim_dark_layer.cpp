@@ -310,7 +310,8 @@ Experiment robe_width(const ClaimContext &context, const BracketSide &side) {
 }
 
 /// `doubled`: with twice the wall of `context`.
-std::vector<ScopeNumber> scope_of(const ClaimContext &context, const ClaimContext &doubled, const ScopeSettings &settings) {
+std::vector<ScopeNumber> scope_of(const ClaimContext &context, const ClaimContext &doubled,
+                                  const ScopeSettings &settings) {
     constexpr int fine = 2;
     std::vector<ScopeNumber> numbers;
     for (const bool thick : {true, false}) {
@@ -321,7 +322,8 @@ std::vector<ScopeNumber> scope_of(const ClaimContext &context, const ClaimContex
         const auto share = [&](const OrbInScene &o, const LightModel &model, Vec2 aside) {
             return exact_share(e.scene, e.scene.camera, o, fine, model, aside);
         };
-        const double here = share(orb, {}, Vec2(0)), leg = optics::glass_leg_mm(orb.optics, optics::impact_at(orb.optics, layer_of(orb).from_mm));
+        const double here = share(orb, {}, Vec2(0)),
+                     leg = optics::glass_leg_mm(orb.optics, optics::impact_at(orb.optics, layer_of(orb).from_mm));
         const EffectBounds of_share = of_light(e.scene, orb, settings, leg, share);
         EffectBounds of_contrast = of_share;
         for (const EffectEntry &entry : effects()) of_contrast.of(entry.effect).value *= std::abs(gain);
@@ -332,12 +334,18 @@ std::vector<ScopeNumber> scope_of(const ClaimContext &context, const ClaimContex
                                                     2 * leg, lost)};
         const std::string wall = fmt::format(", wall {:g} mm", orb.optics.wall_mm);
         const double value = here * gain;
-        numbers.push_back({contrast + wall, "", value, margin_to(value, {least}), margin_words({least}, ""), of_contrast});
+        numbers.push_back(
+            {contrast + wall, "", value, margin_to(value, {least}), margin_words({least}, ""), of_contrast});
         if (thick)
             numbers.push_back({own_share + wall, "", here, margin_to(here, {0.5}), margin_words({0.5}, ""), of_share});
     }
     return numbers;
 }
+
+/// The run's scene with a thin wall, and with one twice as thick.
+struct Walls {
+    ClaimContext thin, thick;
+};
 
 } // namespace
 
@@ -348,28 +356,32 @@ Claim claim_dark_layer() {
                       "layer: it shows the "
                       "dim surroundings instead of the robe.";
     // The rim of the thick wall, twice the run's own, and that of the wall itself.
-    const auto thick = [](const ClaimContext &context) {
-        const Experiment e = context.experiment("", "", "dark-layer", {}, {});
-        ClaimContext doubled = context;
-        doubled.assignments.push_back(assign("orb.wall_mm", 2 * orb_of(e.scene).optics.wall_mm));
-        return doubled;
+    const auto walls = [](const ClaimContext &context) {
+        const optics::Orb<double> orb = orb_of(context.experiment("", "", "dark-layer", {}, {}).scene).optics;
+        const auto with = [&](double wall_mm) {
+            ClaimContext changed = context;
+            changed.assignments.push_back(assign("orb.wall_mm", wall_mm));
+            return changed;
+        };
+        // Where there is no room for twice the wall, it is the thick one itself.
+        if (2 * orb.wall_mm < orb.outer_mm) return Walls{context, with(2 * orb.wall_mm)};
+        return Walls{with(orb.wall_mm / 2), context};
     };
-    claim.experiments = [thick](const ClaimContext &context) {
-        const ClaimContext doubled = thick(context);
-        std::vector all{layer(doubled, "layer", "the right edge of an orb with twice the wall, before a brighter robe",
+    claim.experiments = [walls](const ClaimContext &context) {
+        const auto [thin, thick] = walls(context);
+        std::vector all{layer(thick, "layer", "the right edge of an orb with a thick wall, before a brighter robe",
                               Relation::above, {}),
-                        proportional(doubled),
-                        layer(context, "layer-thin",
-                              "the same with the wall itself: the layer is as dark, and half as wide", Relation::above,
-                              {})};
-        if (const auto flip = brightness_flip(doubled))
+                        proportional(thick),
+                        layer(thin, "layer-thin", "the same with half the wall: the layer is as dark, and half as wide",
+                              Relation::above, {})};
+        if (const auto flip = brightness_flip(thick))
             for (const BracketSide &side : bracket_of(flip->value))
-                all.push_back(layer(doubled, fmt::format("layer-flip-{}", side.label),
+                all.push_back(layer(thick, fmt::format("layer-flip-{}", side.label),
                                     fmt::format("surroundings just {} the flip point", side.label),
                                     side.label == "below" ? Relation::above : Relation::below,
                                     {assign("environment.radiance", side.value)}));
-        if (const auto flip = width_flip(doubled))
-            for (const BracketSide &side : bracket_of(flip->value)) all.push_back(robe_width(doubled, side));
+        if (const auto flip = width_flip(thick))
+            for (const BracketSide &side : bracket_of(flip->value)) all.push_back(robe_width(thick, side));
         return all;
     };
     claim.summary = [](const ClaimContext &, Verdict verdict) -> std::string {
@@ -385,9 +397,10 @@ Claim claim_dark_layer() {
         }
         return "";
     };
-    claim.notes = [thick](const ClaimContext &context) {
+    claim.notes = [walls](const ClaimContext &context) {
         std::vector<std::string> notes;
-        for (const ClaimContext &c : {context, thick(context)}) {
+        const auto [thin, thick] = walls(context);
+        for (const ClaimContext &c : {thin, thick}) {
             const Experiment e = context.experiment("", "", "dark-layer", {}, {});
             const OrbInScene orb = orb_of(c.experiment("", "", "dark-layer", {}, {}).scene);
             const double eye = glm::length(e.scene.camera.eye_mm - orb.centre_mm), inner = orb.optics.inner_mm;
@@ -395,14 +408,16 @@ Claim claim_dark_layer() {
             const auto turn = optics::rim_deflection(orb.optics, optics::impact_at(orb.optics, inner));
             const auto lands = turn ? optics::landing_after_turn(inner, *turn, eye, plane) : std::optional<double>();
             notes.push_back(fmt::format(
-                "A wall of {:g} mm makes a layer {:.1f} minutes of arc wide at {:g} mm; normal acuity is about 1. At "
-                "its inner border rays are turned outwards by {:.1f} degrees and reach the robe's plane {} mm from the "
-                "axis.",
-                orb.optics.wall_mm, optics::rim_width(orb.optics) / eye * 180 * 60 / 3.141592653589793, eye,
-                turn ? -*turn * 180 / 3.141592653589793 : 0.0,
-                lands ? fmt::format("{:.0f}", *lands) : "infinitely many"));
+                "A wall of {:g} mm makes a layer {:.1f} minutes of arc wide at {:g} mm; normal acuity is about 1.",
+                orb.optics.wall_mm, optics::rim_width(orb.optics) / eye * 180 * 60 / 3.141592653589793, eye));
+            if (turn)
+                notes.back() +=
+                    fmt::format(" At its inner border rays are turned outwards by {:.1f} degrees and {}.",
+                                -*turn * 180 / 3.141592653589793,
+                                lands ? fmt::format("reach the robe's plane {:.0f} mm from the axis", *lands)
+                                      : "never reach the robe's plane");
         }
-        const Experiment shown = base(thick(context), "", "", {});
+        const Experiment shown = base(thick, "", "", {});
         if (!robe_stands_beside(shown.scene, orb_of(shown.scene)))
             notes.push_back("The robe ends behind the orb, as the eye sees it: nothing stands beside the layer that it "
                             "could be held against.");
@@ -412,15 +427,16 @@ Claim claim_dark_layer() {
             "shows that robe. The outermost thread of the rim shows the robe straight behind in any case.");
         return notes;
     };
-    claim.flips = [thick](const ClaimContext &context) {
+    claim.flips = [walls](const ClaimContext &context) {
         std::vector<FlipPoint> flips;
-        const ClaimContext doubled = thick(context);
-        if (const auto flip = brightness_flip(doubled)) flips.push_back(*flip);
-        if (const auto flip = width_flip(doubled)) flips.push_back(*flip);
+        const ClaimContext thick = walls(context).thick;
+        if (const auto flip = brightness_flip(thick)) flips.push_back(*flip);
+        if (const auto flip = width_flip(thick)) flips.push_back(*flip);
         return flips;
     };
-    claim.scope = [thick](const ClaimContext &context, const ScopeSettings &settings) {
-        return scope_of(context, thick(context), settings);
+    claim.scope = [walls](const ClaimContext &context, const ScopeSettings &settings) {
+        const auto [thin, thick] = walls(context);
+        return scope_of(thin, thick, settings);
     };
     claim.mutant = Fault::inner_surface_missing;
     return claim;

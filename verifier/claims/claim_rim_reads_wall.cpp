@@ -14,8 +14,8 @@
 #include "verifier/claims/flip.h"
 #include "verifier/claims/orb_marks.h"
 #include "verifier/claims/prediction.h"
-#include "verifier/measure/edges.h"
 #include "verifier/claims/scope_bounds.h"
+#include "verifier/measure/edges.h"
 #include "verifier/measure/optical_map.h"
 
 namespace threefold {
@@ -36,6 +36,9 @@ double preset_wall_mm(ClaimContext context) {
     context.assignments.clear();
     return run_wall_mm(context);
 }
+
+/// In a thicker wall the outermost rays pass the hollow by, and the rim is narrower than the wall.
+double greatest_wall_mm(const optics::Orb<double> &orb) { return orb.outer_mm - optics::critical_radius(orb); }
 
 Experiment width_experiment(const ClaimContext &context, const std::string &name, const std::string &title,
                             double wall_mm) {
@@ -114,23 +117,26 @@ std::optional<Vec3> solid_landing(const OrbInScene &orb, const Quad &card, const
     return predicted_landing(solid, card, ray);
 }
 
+/// `full`: whether the rim is stated to be as wide as the wall; none: by the closed form.
 Experiment edge_experiment(const ClaimContext &context, const std::string &name, const std::string &title,
-                           std::vector<Assignment> fixed) {
+                           std::vector<Assignment> fixed, std::optional<Relation> full = {}) {
     for (const Assignment &a : {assign("glass.coating", "antireflective"), assign("glass.interface_transmittance", "1"),
                                 assign("orb.shift_mm", "0"), assign("image.orb_share", orb_share)})
         fixed.push_back(a);
     const Scene plan = context.experiment("", "", "rim", {}, fixed).scene;
     const OrbInScene orb = orb_of(plan);
     const double radius = orb.optics.outer_mm, eye = glm::length(plan.camera.eye_mm - orb.centre_mm);
-    const double turn = 2 * optics::turn_at_outer(orb.optics, optics::impact_at(orb.optics, radius));
-    const double bearing = optics::eye_angle(radius, eye) - turn;
+    const double off = radius - orb.optics.index * orb.optics.inner_mm; // over 0: beyond the flip point
+    const double band_mm = std::max(0.0, off), wall = orb.optics.wall_mm;
+    // The card faces the middle of what the band sends to it: a wide band fans out.
+    const double middle = radius - band_mm / 2;
+    const double turn = 2 * optics::turn_at_outer(orb.optics, optics::impact_at(orb.optics, middle));
+    const double bearing = optics::eye_angle(middle, eye) - turn;
     fixed.push_back(assign("card.bearing_deg", bearing * 180 / std::numbers::pi));
     fixed.push_back(assign("card.distance_mm", 3 * radius));
     fixed.push_back(assign("card.half_width_mm", 4 * radius));
     Experiment e = context.experiment(name, title, "rim", {}, fixed);
 
-    const double off = radius - orb.optics.index * orb.optics.inner_mm; // over 0: beyond the flip point
-    const double band_mm = std::max(0.0, off), wall = orb.optics.wall_mm;
     Camera &camera = e.scene.camera;
     camera.width_px = camera.height_px =
         2 * static_cast<int>(std::clamp(std::round(band_px * radius / (orb_share * std::abs(off))), 80.0, 1e8));
@@ -154,7 +160,11 @@ Experiment edge_experiment(const ClaimContext &context, const std::string &name,
               {"tessellation", 4 * a.surface_mm / wall, "both borders lie on tessellated spheres"},
               {"arithmetic", 4 * a.rounding_mm / wall, "rounding of positions"}},
              true},
-            {rim_full, "", off > 0 ? Relation::below : Relation::above, 1 - 0.5 * std::abs(off) / wall, {}}};
+            {rim_full,
+             "",
+             full.value_or(off > 0 ? Relation::below : Relation::above),
+             1 - 0.5 * std::abs(off) / wall,
+             {}}};
     };
     const auto share_of = [=](const Camera &at, const auto &landing) {
         const Quad &card = card_of(scene);
@@ -182,10 +192,8 @@ Experiment edge_experiment(const ClaimContext &context, const std::string &name,
     e.measure = [=](const Image &image, const Camera &at) {
         // What counting itself errs by on these very rays is known, and taken off.
         const double share =
-            readable ? share_of(at,
-                                [&](const Quad &card, int column, int row, const Ray &) {
-                                    return landing_point(card, image.at(column, row));
-                                }) -
+            readable ? share_of(at, [&](const Quad &card, int column, int row,
+                                        const Ray &) { return landing_point(card, image.at(column, row)); }) -
                            exact_share(at) + expected
                      : std::numeric_limits<double>::quiet_NaN();
         return std::vector<Reading>{{rim_share, share}, {rim_full, share}};
@@ -213,7 +221,7 @@ std::vector<FlipPoint> flip_points(const ClaimContext &context) {
                    : std::vector<std::string>{};
     };
     std::vector<FlipPoint> flips;
-    const double wall = orb.optics.outer_mm - optics::critical_radius(orb.optics);
+    const double wall = greatest_wall_mm(orb.optics);
     if (wall > 1e-6 * orb.optics.outer_mm)
         flips.push_back({"orb.wall_mm", "mm", wall, orb.optics.wall_mm,
                          "in a thicker wall rays pass outside the hollow, and the rim is narrower than the wall",
@@ -261,29 +269,39 @@ Claim claim_rim_reads_wall() {
         "its wall, whatever the glass.";
     claim.experiments = [](const ClaimContext &context) {
         const double own = run_wall_mm(context), thin = preset_wall_mm(context);
-        std::vector all{width_experiment(context, "rim", "the right edge of a hollow orb, magnified", own)};
-        if (own != thin)
+        const optics::Orb<double> orb = orb_of(context.experiment("", "", "rim", {}, {}).scene).optics;
+        const double greatest = greatest_wall_mm(orb);
+        std::vector all{
+            own < greatest
+                ? width_experiment(context, "rim", "the right edge of a hollow orb, magnified", own)
+                : edge_experiment(context, "rim", "the outermost rays of the hollow orb", {}, Relation::above)};
+        if (own != thin && thin < greatest)
             all.push_back(width_experiment(context, "rim-thin", "the same with the study's thin wall", thin));
-        if (own != 2 * thin)
+        if (own != 2 * thin && 2 * thin < greatest)
             all.push_back(width_experiment(context, "rim-thick", "the same with the study's thick wall", 2 * thin));
         for (const FlipPoint &flip : flip_points(context))
             for (std::size_t k = 0; k < flip.bracket.size(); ++k) {
-                const BracketSide side = bracket_of(flip.value)[k];
                 const bool of_index = flip.parameter == "glass.index";
-                const double value = of_index ? std::max(side.value, (1 + flip.value) / 2) : side.value;
+                const BracketSide side = (of_index ? bracket_of(flip.value, 1) : bracket_of(flip.value))[k];
                 all.push_back(edge_experiment(context, flip.bracket[k],
                                               fmt::format("the outermost rays, at {} just {} the flip point",
                                                           of_index ? "an index" : "a wall", side.label),
-                                              {assign(flip.parameter, value)}));
+                                              {assign(flip.parameter, side.value)}));
             }
         return all;
     };
-    claim.summary = [](const ClaimContext &, Verdict verdict) {
+    claim.summary = [](const ClaimContext &context, Verdict verdict) -> std::string {
         switch (verdict) {
         case Verdict::holds:
-            return "The rim is as wide as the wall in every renderer: who measures the rim in a picture knows the "
-                   "glass.";
+            return "The rim is as wide as the wall in every renderer: who measures the rim in a picture knows how "
+                   "thick the wall is, whatever the glass.";
         case Verdict::fails:
+            if (const optics::Orb<double> orb = orb_of(context.experiment("", "", "rim", {}, {}).scene).optics;
+                orb.wall_mm > greatest_wall_mm(orb))
+                return fmt::format(
+                    "In a wall of {:.4g} mm rays pass outside the hollow: the rim is {:.4g} mm wide, less "
+                    "than the wall.",
+                    orb.wall_mm, optics::rim_width(orb));
             return "In some renderer the rim is not as wide as the wall.";
         case Verdict::undecided:
             return "It is not settled that the rim is as wide as the wall.";
@@ -295,7 +313,7 @@ Claim claim_rim_reads_wall() {
         return std::vector<std::string>{fmt::format(
             "It flips where the wall is so thick that rays pass outside the hollow: inner radius under R/n = {:.4g} mm "
             "(wall over {:.4g} mm at this index). The rim is then (n - 1) r wide.",
-            optics::critical_radius(orb.optics), orb.optics.outer_mm - optics::critical_radius(orb.optics))};
+            optics::critical_radius(orb.optics), greatest_wall_mm(orb.optics))};
     };
     claim.flips = flip_points;
     claim.scope = scope;

@@ -170,12 +170,19 @@ Experiment map_experiment(const ClaimContext &context, const MapPlan &plan) {
     e.measure = [=](const Image &image, const Camera &camera) {
         std::vector<double> errors = landing_errors_mm(scene, orb, image, camera);
         const double p95 = quantile(std::move(errors), 0.95) / orb.optics.outer_mm;
-        const double fitted = slope_of(scene, orb, camera, [&](int column, int row, const Ray &) {
-            return landing_point(card_of(scene), image.at(column, row));
-        });
-        // What the polynomial leaves of the aberration is the same on the closed form along the same rays.
+        // Over the rays that land on the card in the picture and by the closed form: what the polynomial leaves of the
+        // aberration is then the same in both.
+        const Quad &card = card_of(scene);
+        const auto landings = [&](int column, int row, const Ray &ray) {
+            const auto landed = landing_point(card, image.at(column, row));
+            const auto predicted = predicted_landing(orb, card, ray);
+            const bool both = landed && predicted && on_card(card, *predicted);
+            return both ? std::pair(landed, predicted) : std::pair<std::optional<Vec3>, std::optional<Vec3>>();
+        };
+        const double fitted = slope_of(
+            scene, orb, camera, [&](int column, int row, const Ray &ray) { return landings(column, row, ray).first; });
         const double exact = slope_of(
-            scene, orb, camera, [&](int, int, const Ray &ray) { return predicted_landing(orb, card_of(scene), ray); });
+            scene, orb, camera, [&](int column, int row, const Ray &ray) { return landings(column, row, ray).second; });
         const double slope = fitted - exact + paraxial;
         return std::vector<Reading>{{"landing error, 95th percentile", p95},
                                     {"central slope", slope},
@@ -275,7 +282,7 @@ std::vector<Experiment> flip_experiments(const ClaimContext &context) {
                       conclusion}));
     };
     if (const auto index = flip_index(view))
-        for (const BracketSide &side : bracket_of(*index))
+        for (const BracketSide &side : bracket_of(*index, 1))
             add("index", "glass.index", side,
                 side.label == "below"
                     ? SlopeConclusion{"central slope is positive (upright) below the index", Relation::above, 0}

@@ -2,6 +2,7 @@
 // Where a conclusion flips: a root of a closed form over one parameter, and the two values beside it that are rendered.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <optional>
@@ -24,6 +25,13 @@ struct BracketSide {
 
 inline std::array<BracketSide, 2> bracket_of(double flip) {
     return {BracketSide{"below", flip * (1 - bracket_share)}, BracketSide{"above", flip * (1 + bracket_share)}};
+}
+
+/// The same where the parameter cannot be less than that: the lower side then lies half way to it.
+inline std::array<BracketSide, 2> bracket_of(double flip, double least) {
+    auto sides = bracket_of(flip);
+    sides[0].value = std::max(sides[0].value, (least + flip) / 2);
+    return sides;
 }
 
 } // namespace threefold
