@@ -94,7 +94,7 @@ TEST(FoldFlip, OfTheMissMovesWithDistancesRadiiAndIndexAsTheClosedFormSays) {
         double R, wall, n, eye, plane;
     };
     for (const Case c :
-         {Case{68, 1.3, 1.51714, 900, 250}, Case{60, 0.9, 1.6, 700, 180}, Case{90, 2, 1.45, 1500, 400}}) {
+         {Case{68, 1.3, 1.51714, 900, 250}, Case{60, 0.9, 1.6, 700, 180}, Case{90, 1.8, 1.45, 1500, 400}}) {
         const ClaimContext context =
             context_of(scenes, {assign("orb.radius_mm", c.R), assign("orb.wall_mm", c.wall), assign("glass.index", c.n),
                                 assign("eye.distance_mm", c.eye), assign("card.distance_mm", c.plane)});

@@ -69,8 +69,9 @@ Specs fold_parameters() {
 Specs criterion_parameters() {
     return {number_parameter("criterion.acuity_arcmin", "the least angle at the eye that is noticed", 1, 1e-6, 1e4),
             number_parameter("criterion.circle_share",
-                             "a fold's break is read on this circle, in shares of the orb's radius", 0.95, 0.05,
-                             0.995)};
+                             "a fold's break is read on this circle, in shares of the orb's radius, or at 0.97 of the "
+                             "hollow's radius where that is less",
+                             0.95, 0.05, 0.995)};
 }
 
 Quad sheet(const Parameters &p, double behind_mm, Surface surface) {

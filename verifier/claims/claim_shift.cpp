@@ -2,6 +2,7 @@
 // "Move the orb 1 cm against the robe, and the folds break" (figure 6B of the study). Its text moves the orb to the
 // left, its published files move the robe to the right: each preset moves what the study moved.
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -58,6 +59,14 @@ FoldSearch shift_search(const ClaimContext &context) {
     return search;
 }
 
+/// In the study's direction, or else in the other.
+std::optional<double> shift_flip(const ClaimContext &context) {
+    FoldSearch search = shift_search(context);
+    if (const auto flip = fold_flip(context, search)) return flip;
+    search.high = -search.high;
+    return fold_flip(context, search);
+}
+
 Experiment at_shift(const ClaimContext &context, double shift_mm, std::size_t fold) {
     FoldPlan plan;
     plan.name = fmt::format("shift-{:g}", shift_mm);
@@ -86,7 +95,7 @@ Claim claim_shift() {
         const std::size_t fold = watched_fold(context);
         for (const double shift : shifts_mm(context.quick)) all.push_back(at_shift(context, shift, fold));
         const FoldSearch search = shift_search(context);
-        if (const auto flip = fold_flip(context, search))
+        if (const auto flip = shift_flip(context))
             for (Experiment &e : fold_brackets(context, search, "shift-flip", *flip)) all.push_back(std::move(e));
         return all;
     };
@@ -120,15 +129,16 @@ Claim claim_shift() {
             "The study's text moves the orb to the left, its published files move the robe to the right; the break "
             "differs, since a shift of the orb shows enlarged on the robe behind it. Each preset moves what the study "
             "moved there."};
-        if (!fold_flip(context, shift_search(context)))
-            notes.push_back("No shift within half the orb's radius takes the break across what the eye resolves: there "
+        if (!shift_flip(context))
+            notes.push_back("No shift within half the orb's radius, to either side, takes the break across what the "
+                            "eye resolves: there "
                             "is no flip point.");
         return notes;
     };
     claim.flips = [](const ClaimContext &context) {
         const Axis axis = axis_of(context);
         std::vector<FlipPoint> flips;
-        if (const auto flip = fold_flip(context, shift_search(context)))
+        if (const auto flip = shift_flip(context))
             flips.push_back(
                 {axis.parameter, "mm", *flip, std::stod(fold_numbers(context, {}).parameters.at(axis.parameter)),
                  fmt::format("{} by more, some aimed fold's break is seen", axis.what), bracket_names("shift-flip")});

@@ -17,6 +17,7 @@
 #include <glm/geometric.hpp>
 
 #include "scenes/catalogue/three_lines.h"
+#include "scenes/error.h"
 #include "verifier/claims/claim.h"
 #include "verifier/claims/flip.h"
 #include "verifier/claims/lines_asked.h"
@@ -26,7 +27,7 @@ namespace threefold {
 
 namespace {
 
-constexpr double film_orb_share = 0.8;     ///< of the film's width that the orb fills
+constexpr double film_orb_share = 0.8; ///< of the film's width that the orb fills
 constexpr double pixels_per_half_width = 4;
 constexpr int margin_px = 6, most_px = 640;
 constexpr double reading_px = 0.01;       ///< cubic convolution errs by a tenth of it, see tests/dark_line_test.cpp
@@ -214,6 +215,13 @@ Experiment crossing_experiment(const ClaimContext &context, const std::string &k
                                       : fmt::format("three lines where they cross the boundary of the {} orb", kind),
                        "three-lines-" + kind, {}, asked);
     const Camera camera = e.scene.camera;
+    for (const NamedLine &named : asked.lines)
+        for (const double impact : {asked.view.circles.inside_mm, asked.view.circles.outside_mm})
+            if (shows_bend(asked.view, camera, named.line, impact))
+                throw Error(
+                    Exit::bad_data,
+                    fmt::format("the {} bends where its place is read, on the circle of {:.4g} mm", named.name, impact),
+                    "lines.bend_mm must lie farther out, or lines.half_width_mm be smaller");
     e.predict = [asked, camera](const Accuracy &a) { return predict(asked, camera, a); };
     return e;
 }

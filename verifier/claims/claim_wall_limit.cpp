@@ -164,6 +164,21 @@ Experiment own_wall(const ClaimContext &context, const Limits &limits) {
     return fold_experiment(context, plan);
 }
 
+/// What the study said of its wall, held against the closed form at that wall.
+std::string study_note(const ClaimContext &context, const FoldNumbers &here) {
+    const std::string said = fmt::format("The study saw no noticeable break at {:g} mm.", study_wall_mm);
+    if (!(study_wall_mm < here.orb.outer_mm)) return said;
+    const FoldNumbers n = fold_numbers(context, {assign("orb.wall_mm", study_wall_mm)});
+    const double rim = rim_arcmin(n.orb, n.eye_mm),
+                 jump = greatest_jump_mm(n, all_folds) / n.criterion_mm * n.acuity_arcmin;
+    const bool seen = rim > n.acuity_arcmin || jump > n.acuity_arcmin;
+    return fmt::format(
+        "{} {} for an eye of {:g} minute(s) of arc: at that wall the dark rim is {:.3g}' wide, seen from "
+        "{:g} mm{}.",
+        said, seen ? "That is not so" : "That is so", n.acuity_arcmin, rim, n.eye_mm,
+        std::isnan(jump) ? "" : fmt::format(", and the leftmost fold breaks by {:.3g}'", jump));
+}
+
 std::vector<ScopeNumber> scope(const ClaimContext &context, const ScopeSettings &settings) {
     const FoldNumbers n = fold_numbers(context, {});
     ScopeNumber of_break =
@@ -178,8 +193,9 @@ std::vector<ScopeNumber> scope(const ClaimContext &context, const ScopeSettings 
     of_rim.pupil = by_pupil(settings, [&](Vec2 aside) {
         return rim_arcmin(n.orb, std::sqrt(n.eye_mm * n.eye_mm + aside.x * aside.x + aside.y * aside.y));
     });
-    return {of_break, ScopeNumber{"width of the dark rim as the eye sees it", "arcmin", rim,
-                                  margin_to(rim, {n.acuity_arcmin}), margin_words({n.acuity_arcmin}, "arcmin"), of_rim}};
+    return {of_break,
+            ScopeNumber{"width of the dark rim as the eye sees it", "arcmin", rim, margin_to(rim, {n.acuity_arcmin}),
+                        margin_words({n.acuity_arcmin}, "arcmin"), of_rim}};
 }
 
 } // namespace
@@ -188,10 +204,10 @@ Claim claim_wall_limit() {
     Claim claim;
     claim.name = "wall-limit";
     claim.statement =
-        "To an eye that resolves one minute of arc, only a wall thinner than a limit shows neither a dark rim nor a "
-        "break in a fold that is not aimed at the orb's centre; the study's wall of 1.3 mm is well above that limit "
-        "and "
-        "shows both.";
+        "To an eye of a stated acuity, only a wall thinner than a limit shows neither a dark rim nor a break in a fold "
+        "that is not aimed at the orb's centre; the wall of the scene (the study's: 1.3 mm) is above that limit and "
+        "shows "
+        "both.";
     claim.experiments = [](const ClaimContext &context) {
         const Limits limits = find_limits(context);
         std::vector<Experiment> all{own_wall(context, limits),
@@ -229,13 +245,8 @@ Claim claim_wall_limit() {
     claim.notes = [](const ClaimContext &context) {
         const Limits l = find_limits(context);
         const FoldNumbers &n = l.here;
-        const double rim = rim_arcmin(n.orb, n.eye_mm),
-                     jump = greatest_jump_mm(n, all_folds) / n.criterion_mm * n.acuity_arcmin;
         std::vector<std::string> notes{
-            fmt::format("The study saw no noticeable break at 1.3 mm. That is not so for an eye of {:g} minute(s) of "
-                        "arc: at this wall of {:g} mm the dark rim is {:.3g}' wide, seen from {:g} mm{}.",
-                        n.acuity_arcmin, n.orb.wall_mm, rim, n.eye_mm,
-                        std::isnan(jump) ? "" : fmt::format(", and the leftmost fold breaks by {:.3g}'", jump)),
+            study_note(context, n),
             "The folds that are aimed at the orb's centre do not break at any wall: that they look whole says nothing "
             "of the wall's thickness. What cuts them is the dark rim."};
         if (l.by_rim_mm)

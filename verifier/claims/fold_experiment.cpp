@@ -73,6 +73,34 @@ std::optional<Look> look_for(const FoldPicture &p, const FoldEdge &edge, double 
     return Look{*azimuth, window};
 }
 
+/// Folds are told apart where there is robe between them. Throws where another one lies over a fold that is asked for,
+/// or so close that no window is left between their edges.
+void require_apart(const FoldPicture &p, const std::vector<std::size_t> &asked) {
+    constexpr double least_window_px = 1;
+    const auto refuse = [](std::size_t fold, std::size_t other) {
+        throw Error(Exit::bad_data,
+                    fmt::format("{} and {} overlap, or nearly, where their breaks are read", name_of_fold(fold),
+                                name_of_fold(other)),
+                    "folds.miss_mm, folds.step_deg and folds.width_deg must leave robe between them");
+    };
+    for (const std::size_t k : asked)
+        for (const auto *circles : {&p.inside_mm, &p.outside_mm})
+            for (const double b : {circles->front(), circles->back()}) {
+                const auto left = edge_azimuth(p.folds, p.folds.folds[k].left, b),
+                           right = edge_azimuth(p.folds, p.folds.folds[k].right, b);
+                if (!left || !right) continue;
+                const double middle = (*left + *right) / 2, half = std::abs(*left - *right) / 2;
+                const double least = least_window_px / window_share / (p.radius_px * b / p.folds.orb.optics.outer_mm);
+                for (std::size_t other = 0; other < p.folds.folds.size(); ++other)
+                    for (const FoldEdge *edge : {&p.folds.folds[other].left, &p.folds.folds[other].right}) {
+                        if (other == k) continue;
+                        if (const auto there = edge_azimuth(p.folds, *edge, b))
+                            if (std::abs(std::remainder(*there - middle, 2 * std::numbers::pi)) < half + least)
+                                refuse(k, other);
+                    }
+            }
+}
+
 /// Where the edge is seen on the circle, followed straight to the robe.
 AlongAcross seen_at(const FoldPicture &p, const FoldEdge &edge, bool left, double circle_mm, const Image &image,
                     const Camera &camera) {
@@ -226,6 +254,7 @@ Experiment fold_experiment(const ClaimContext &context, const FoldPlan &plan) {
     for (const Object &object : e.scene.objects)
         if (const Mesh *mesh = std::get_if<Mesh>(&object.shape)) p.dark = flat_radiance(mesh->surface);
     p.scene = e.scene;
+    require_apart(p, plan.folds);
     e.scene.camera.crop = crop_for(p, plan.folds);
     p.scene = e.scene;
 

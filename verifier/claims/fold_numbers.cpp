@@ -25,6 +25,15 @@ constexpr double bracket_radius_px = 700;
 // the wider fold by the cosine of half its angle: less than 0.1 % up to 5 degrees.
 constexpr double narrow_deg = 1.2, wide_deg = 5;
 
+/// How much sharper than usual a bracket must be read, so that what is between the jump and the criterion can be told.
+double times_sharper(const FoldNumbers &n, double jump_mm) {
+    constexpr double told_px = 0.02, most_times = 6;
+    const double robe_per_orb = n.eye_to_robe_mm / n.eye_mm; // lengths on the robe and at the orb that look alike
+    const double mm_per_px = n.orb.outer_mm / bracket_radius_px * robe_per_orb;
+    const double gap_px = std::abs(jump_mm - n.criterion_mm) / mm_per_px;
+    return gap_px > 0 ? std::clamp(told_px / gap_px, 1.0, most_times) : 1.0;
+}
+
 double number_in(const Experiment &e, const std::string &name) { return std::stod(e.record.parameters.at(name)); }
 
 } // namespace
@@ -48,9 +57,17 @@ double eye_to_robe_mm(const Experiment &e) {
     return number_in(e, "eye.distance_mm") + number_in(e, "card.distance_mm");
 }
 
+/// The last circle of the ring: the one asked for, or as near to it as rays still go through the hollow, and not so
+/// near the rim that they are flung far aside.
+double circle_mm(const Experiment &e) {
+    constexpr double clear_most = 0.97; // of the hollow's radius
+    const OrbInScene orb = orb_of(e.scene);
+    return std::min(number_in(e, "criterion.circle_share") * orb.optics.outer_mm, clear_most * orb.clear_radius_mm());
+}
+
 std::vector<double> fold_circles_mm(const Experiment &e) {
-    const double radius = number_in(e, "orb.radius_mm"), share = number_in(e, "criterion.circle_share");
-    return even_steps((share - ring_share) * radius, share * radius, circles);
+    const double last = circle_mm(e);
+    return even_steps(last - ring_share * orb_of(e.scene).optics.outer_mm, last, circles);
 }
 
 Experiment fold_setup(const ClaimContext &context, const std::string &name, const std::string &title,
@@ -67,10 +84,11 @@ FoldNumbers fold_numbers(const ClaimContext &context, const std::vector<Assignme
     const FoldScene scene = fold_scene_of(seen_from_beside(e.scene, eye_aside_mm));
     FoldNumbers n;
     n.acuity_arcmin = number_in(e, "criterion.acuity_arcmin");
-    n.circle_share = number_in(e, "criterion.circle_share");
+    n.circle_share = circle_mm(e) / orb_of(e.scene).optics.outer_mm;
     n.criterion_mm = eye_to_robe_mm(e) * std::tan(n.acuity_arcmin / 60 * std::numbers::pi / 180);
     n.orb = scene.orb.optics;
     n.eye_mm = glm::length(scene.eye_mm - scene.orb.centre_mm);
+    n.eye_to_robe_mm = eye_to_robe_mm(e);
     n.parameters = e.record.parameters;
     const std::vector<double> ring = fold_circles_mm(e);
     for (const Fold &fold : scene.folds) n.jump_mm.push_back(fold_jump(scene, fold, ring));
@@ -128,9 +146,13 @@ std::vector<Experiment> fold_brackets(const ClaimContext &context, const FoldSea
         const std::size_t fold = most_broken_fold(n, search.folds);
         plan.folds = {fold};
         plan.rows = false;
-        plan.radius_px = bracket_radius_px;
-        plan.samples_per_pixel = 16;
-        const bool under = greatest_jump_mm(n, {fold}) < n.criterion_mm;
+        const double jump = greatest_jump_mm(n, {fold});
+        // By a larger picture, as far as memory goes, and by samples: an edge's noise falls with their power 3/4.
+        constexpr double most_larger = 2;
+        const double sharper = times_sharper(n, jump), larger = std::min(sharper, most_larger);
+        plan.radius_px = bracket_radius_px * larger;
+        plan.samples_per_pixel = static_cast<int>(std::ceil(16 * std::pow(sharper / larger, 4.0 / 3)));
+        const bool under = jump < n.criterion_mm;
         plan.conclusions = {{fmt::format("break of {} is {} what the eye resolves", name_of_fold(fold),
                                          under ? "less than" : "more than"),
                              {fold},

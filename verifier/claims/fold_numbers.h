@@ -35,9 +35,11 @@ std::vector<double> fold_circles_mm(const Experiment &e);
 struct FoldNumbers {
     std::vector<std::optional<double>> jump_mm; ///< signed, by fold; empty where the fold is not seen on the circles
     double criterion_mm = 0;                    ///< what the acuity covers on the robe, straight ahead
-    double acuity_arcmin = 0, circle_share = 0;
+    double acuity_arcmin = 0;
+    double circle_share = 0; ///< of the radius: where the ring ends, on which jumps are read
     optics::Orb<double> orb{};
-    double eye_mm = 0;                             ///< to the orb's centre
+    double eye_mm = 0; ///< to the orb's centre
+    double eye_to_robe_mm = 0;
     std::map<std::string, std::string> parameters; ///< of the scene
 };
 

@@ -30,8 +30,8 @@ ScopeNumber break_scope(const ClaimContext &context, const ScopeSettings &settin
         const IndexBounds index = by_index(here.orb.index, settings, [&](double n) {
             return jump_or_nan(fold_numbers(context, joined(fixed, {assign("glass.index", n)})), fold);
         });
-        const Bound aside = by_pupil(
-            settings, [&](Vec2 beside) { return jump_or_nan(fold_numbers(context, fixed, beside), fold); });
+        const Bound aside =
+            by_pupil(settings, [&](Vec2 beside) { return jump_or_nan(fold_numbers(context, fixed, beside), fold); });
         const bool first = fold == folds.front();
         if (first) dispersion = index.dispersion, birefringence = index.birefringence, pupil = aside;
         keep_greater(dispersion, index.dispersion);

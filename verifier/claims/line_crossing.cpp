@@ -25,6 +25,12 @@ std::optional<Vec3> landing_of(const LinesView &view, const Ray &ray) {
     return optics::landing_on_plane(*out, view.scale.origin_mm, view.scale.normal);
 }
 
+bool is_beyond_bend(const LinesView &view, const SoftLine &line, Vec3 point_mm) {
+    if (!line.bend_mm) return false;
+    const Vec3 onwards(1, 0, 0), from_bend = point_mm - view.scale.origin_mm - *line.bend_mm * view.along;
+    return glm::dot(from_bend, view.along + onwards) > 0;
+}
+
 } // namespace
 
 double LinesView::plane_distance_mm(const Camera &camera) const {
@@ -33,11 +39,20 @@ double LinesView::plane_distance_mm(const Camera &camera) const {
 
 double distance_from(const LinesView &view, const SoftLine &line, Vec3 point_mm) {
     const Vec3 from_middle = point_mm - view.scale.origin_mm;
-    if (line.bend_mm) {
-        const Vec3 from_bend = from_middle - *line.bend_mm * view.along, onwards(1, 0, 0);
-        if (glm::dot(from_bend, view.along + onwards) > 0) return from_bend.y;
-    }
+    if (is_beyond_bend(view, line, point_mm)) return (from_middle - *line.bend_mm * view.along).y;
     return glm::dot(from_middle, view.scale.across) - line.apart_mm;
+}
+
+bool shows_bend(const LinesView &view, const Camera &camera, const SoftLine &line, double impact_mm) {
+    if (!line.bend_mm) return false;
+    const double reach = soft_reach * line.half_width_mm;
+    int beyond = 0, before = 0;
+    for (const double off : {-reach, 0.0, reach})
+        if (const auto azimuth = azimuth_of(view, camera, line, impact_mm, off)) {
+            const auto landing = landing_of(view, *ray_past(camera, view.orb.centre_mm, impact_mm, *azimuth));
+            (is_beyond_bend(view, line, *landing) ? beyond : before) += 1;
+        }
+    return beyond > 0 && before > 0;
 }
 
 std::optional<double> azimuth_of(const LinesView &view, const Camera &camera, const SoftLine &line, double impact_mm,

@@ -41,6 +41,9 @@ double distance_from(const LinesView &view, const SoftLine &line, Vec3 point_mm)
 std::optional<double> azimuth_of(const LinesView &view, const Camera &camera, const SoftLine &line, double impact_mm,
                                  double off_centre_mm);
 
+/// Does the line, with all its soft width, meet the circle on both of its arms? What is read there is no place of one.
+bool shows_bend(const LinesView &view, const Camera &camera, const SoftLine &line, double impact_mm);
+
 /// Place of the line's centre of darkness on a circle: what a picture of it is measured to be.
 std::optional<double> predicted_place(const LinesView &view, const Camera &camera, const SoftLine &line,
                                       double impact_mm);
