@@ -167,6 +167,17 @@ TEST(Figure, ScenesAreMeaningfulUnderBothPresetsPaintedOrInColoursOfIdentity) {
                              {{"figure.surface", surface}, {"orb.kind", kind}, {"robe.relief_resolution", "20"}})));
 }
 
+TEST(Figure, RefusesWhatSaysHowToTakeAFileThatIsNotGiven) {
+    for (const char *name : {"hand.mesh_x_mm", "robe.mesh_unit_mm", "robe.texture_gamma"}) try {
+            made("salvator", Preset::text, {{"robe.relief_resolution", "9"}, {name, "9"}});
+            FAIL() << name;
+        } catch (const Error &error) {
+            EXPECT_NE(std::string(error.what()).find("means nothing without"), std::string::npos) << error.what();
+        }
+    EXPECT_NO_THROW(made("salvator", Preset::text, {{"robe.relief_resolution", "9"}, {"hand.mesh_unit_mm", "10"}}))
+        << "its usual value";
+}
+
 TEST(Figure, InColoursOfIdentityEachThingHasItsOwn) {
     const Scene scene =
         made("salvator", Preset::text, {{"figure.surface", "identity"}, {"robe.relief_resolution", "9"}});

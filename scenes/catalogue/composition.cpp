@@ -2,6 +2,7 @@
 #include "scenes/catalogue/composition.h"
 
 #include <cmath>
+#include <initializer_list>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -73,7 +74,20 @@ std::shared_ptr<const Texture> read_texture(const Parameters &p, const std::stri
 
 bool given(const Parameters &p, const std::string &name) { return !p.word(name).empty(); }
 
+/// What says how a file is taken means nothing without the file: it is refused, not ignored.
+void require_file_for(const Parameters &p, const std::string &file, std::initializer_list<const char *> means) {
+    if (given(p, file)) return;
+    const Parameters usual(p.specs(), p.preset());
+    for (const std::string mean : means)
+        if (p.text(mean) != usual.text(mean))
+            throw Error(Exit::bad_data, fmt::format("{}={} means nothing without {}", mean, p.text(mean), file),
+                        fmt::format("--set {}=FILE", file));
+}
+
 Mesh make_hand(const Parameters &p) {
+    require_file_for(p, "hand.mesh",
+                     {"hand.mesh_unit_mm", "hand.mesh_axes", "hand.mesh_x_mm", "hand.mesh_y_mm", "hand.mesh_z_mm"});
+    require_file_for(p, "hand.texture", {"hand.texture_gamma"});
     const bool own = given(p, "hand.mesh");
     Mesh hand = own ? read_mesh(p, "hand") : figure::holding_hand(orb_centre(p), p.number("orb.radius_mm"));
     const double drop = p.number("hand.drop_mm");
@@ -92,6 +106,8 @@ Mesh make_hand(const Parameters &p) {
 }
 
 Mesh make_robe(const Parameters &p) {
+    require_file_for(p, "robe.mesh", {"robe.mesh_unit_mm", "robe.mesh_axes"});
+    require_file_for(p, "robe.texture", {"robe.texture_gamma"});
     const figure::Standpoint view = standpoint(p);
     const bool own = given(p, "robe.mesh");
     Mesh robe = own ? read_mesh(p, "robe") : figure::relief(view, static_cast<int>(p.number("robe.relief_resolution")));

@@ -2,6 +2,8 @@
 #include "verifier/check/plan.h"
 
 #include <algorithm>
+#include <charconv>
+#include <limits>
 #include <optional>
 
 #include <fmt/format.h>
@@ -113,11 +115,15 @@ std::vector<PlannedClaim> plan_of(const CheckRequest &request) {
 
 namespace {
 
-/// As a record tells it.
-std::string normalised(const Assignment &a, const ClaimContext &context, std::string_view scene) {
-    Parameters values(find_scene(context.scenes, scene).parameters, context.preset);
-    values.set(a.name, a.value);
-    return values.text(a.name);
+/// "1e3" and "1000" are the same; a word or a path is itself.
+bool is_same_value(const std::string &a, const std::string &b) {
+    const auto number = [](const std::string &text) {
+        double value = std::numeric_limits<double>::quiet_NaN();
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        return error == std::errc() && end == text.data() + text.size() ? value
+                                                                        : std::numeric_limits<double>::quiet_NaN();
+    };
+    return a == b || number(a) == number(b);
 }
 
 } // namespace
@@ -130,7 +136,7 @@ std::vector<std::string> unused_values(const PlannedClaim &planned) {
             const auto value = e.record.parameters.find(a.name);
             if (value == e.record.parameters.end()) continue;
             known = true;
-            used = used || value->second == normalised(a, planned.context, e.record.scene);
+            used = used || is_same_value(value->second, a.value);
         }
         if (known && !used && std::ranges::count(names, a.name) == 0) names.push_back(a.name);
     }
