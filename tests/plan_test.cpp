@@ -33,7 +33,8 @@ TEST(Plan, LeavesOutAClaimThatHasNoSceneAndGoesOn) {
     EXPECT_EQ(lines.verdict, Verdict::undecided);
     EXPECT_THAT(lines.notes, Contains(AllOf(HasSubstr("three-lines"), HasSubstr("cuts the glass orb"))));
     EXPECT_TRUE(lines.blamed.empty());
-    EXPECT_THAT(outcome.result.summary, HasSubstr("three-lines (text) has no scene with these values"));
+    EXPECT_THAT(outcome.result.summary,
+                HasSubstr("three-lines (text) has no scene with orb.radius_mm=160: a rectangle"));
     EXPECT_NE(outcome.result.claims[2].verdict, Verdict::fails);
     EXPECT_FALSE(outcome.result.claims[2].rows.empty()) << "it was asked";
     EXPECT_EQ(outcome.exit, Exit::undecided);

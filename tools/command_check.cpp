@@ -80,17 +80,17 @@ std::vector<Claim> asked_claims(const Shop &shop, const CheckCommand &command) {
 }
 
 void print_plan(const CheckRequest &request) {
-    for (const Preset preset : request.presets) {
-        const ClaimContext context{request.scenes, preset, request.assignments, request.quick};
-        for (const Claim &claim : request.claims) {
-            fmt::print("{}{}\n", claim.name, request.presets.size() > 1 ? fmt::format(" ({})", to_string(preset)) : "");
-            for (const Experiment &e : claim.experiments(context))
-                if (e.inspect)
-                    fmt::print("  {:<24} scene {:<20} nothing to render\n", e.name, e.record.scene);
-                else
-                    fmt::print("  {:<24} scene {:<20} {} x {} px, {} replicates\n", e.name, e.record.scene,
-                               e.scene.camera.image_width_px(), e.scene.camera.image_height_px(), e.replicates);
-        }
+    for (const PlannedClaim &planned : plan_of(request)) {
+        fmt::print("{}{}\n", planned.claim->name,
+                   request.presets.size() > 1 ? fmt::format(" ({})", to_string(planned.context.preset)) : "");
+        if (!planned.problem.empty()) fmt::print("  left out: {}\n", planned.problem);
+        for (const std::string &name : unused_values(planned)) fmt::print("  sets {} itself\n", name);
+        for (const Experiment &e : planned.experiments)
+            if (e.inspect)
+                fmt::print("  {:<24} scene {:<20} nothing to render\n", e.name, e.record.scene);
+            else
+                fmt::print("  {:<24} scene {:<20} {} x {} px, {} replicates\n", e.name, e.record.scene,
+                           e.scene.camera.image_width_px(), e.scene.camera.image_height_px(), e.replicates);
     }
 }
 

@@ -41,6 +41,14 @@ void require_in_range(const CheckRequest &request) {
             }
 }
 
+/// " with orb.radius_mm=160, glass.index=1.6"
+std::string with_values(const CheckRequest &request) {
+    std::string text;
+    for (const Assignment &a : request.assignments)
+        text += fmt::format("{}{}={}", text.empty() ? " with " : ", ", a.name, a.value);
+    return text;
+}
+
 std::vector<Experiment> experiments_of(const Claim &claim, const ClaimContext &context) {
     std::vector<Experiment> all = claim.experiments(context);
     for (Experiment &e : all) {
@@ -99,8 +107,8 @@ std::vector<PlannedClaim> plan_of(const CheckRequest &request) {
                     plan.back().experiments = experiments_of(claim, context);
                 } catch (const Error &error) {
                     if (error.code() != Exit::bad_data) throw;
-                    plan.back().problem = fmt::format("{} ({}) has no scene with these values: {}", claim.name,
-                                                      to_string(preset), error.what());
+                    plan.back().problem = fmt::format("{} ({}) has no scene{}: {}", claim.name, to_string(preset),
+                                                      with_values(request), error.what());
                     if (!first) first = Error(error.code(), plan.back().problem, error.hint());
                 }
             }

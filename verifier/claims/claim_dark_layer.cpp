@@ -110,10 +110,14 @@ double robe_radiance(const Scene &scene) {
     return colour ? colour->r : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// The right edge of the orb, so magnified that the measured part of the rim has `least_layer_px` columns.
+/// The right edge of the orb, so magnified that the measured part of the rim has `least_layer_px` columns, and the robe
+/// beside it enough that some pixels' centres lie in it.
 void look_at_the_rim(Camera &camera, const OrbInScene &orb) {
     const Band layer = layer_of(orb), robe = beside(orb);
-    const double orb_px = least_layer_px * orb.optics.outer_mm / (layer.to_mm - layer.from_mm);
+    constexpr double least_robe_px = 1.5;
+    const double px_per_mm = std::max(least_layer_px / (layer.to_mm - layer.from_mm),
+                                      robe.to_mm > robe.from_mm ? least_robe_px / (robe.to_mm - robe.from_mm) : 0.0);
+    const double orb_px = px_per_mm * orb.optics.outer_mm;
     camera.width_px = camera.height_px =
         2 * static_cast<int>(std::clamp(std::ceil(orb_px / film_orb_share), 64.0, 1e7));
     const int left = static_cast<int>(camera.width_px / 2.0 + radius_px(camera, orb, layer.from_mm)) - margin_px;
