@@ -148,6 +148,19 @@ double distance(const Quad &quad, Vec3 point) {
     return glm::length(d - u * quad.half_u_mm - v * quad.half_v_mm);
 }
 
+/// Where the rays of an orthographic camera begin.
+Quad film_of(const Camera &camera) {
+    const CameraFrame frame = camera_frame(camera);
+    const double pixel_mm = camera.orthographic_width_mm / camera.width_px;
+    const Crop part = camera.crop.value_or(Crop{0, 0, camera.width_px, camera.height_px});
+    const Vec2 middle_px(part.x_px + part.width_px / 2.0 - camera.width_px / 2.0,
+                         camera.height_px / 2.0 - part.y_px - part.height_px / 2.0);
+    return {camera.eye_mm + pixel_mm * (middle_px.x * frame.right + middle_px.y * frame.up),
+            part.width_px / 2.0 * pixel_mm * frame.right,
+            part.height_px / 2.0 * pixel_mm * frame.up,
+            {}};
+}
+
 /// Glass must stand free: a ray inside it meets nothing but its own surfaces. Touching is allowed.
 void require_glass_apart(const Scene &scene) {
     constexpr double touching = 1 - 1e-9;
@@ -156,6 +169,9 @@ void require_glass_apart(const Scene &scene) {
         if (!orb) continue;
         if (glm::length(scene.camera.eye_mm - orb->centre_mm) <= orb->radius_mm)
             refuse("the eye lies inside the glass orb or on it: it must stand outside");
+        if (scene.camera.projection == Projection::orthographic &&
+            distance(film_of(scene.camera), orb->centre_mm) <= orb->radius_mm)
+            refuse("the orthographic camera's film cuts the glass orb: its rays must begin outside");
         for (std::size_t j = 0; j < scene.objects.size(); ++j) {
             if (const auto other = outer_sphere(scene.objects[j].shape);
                 other && j > i &&

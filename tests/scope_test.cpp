@@ -351,5 +351,19 @@ TEST(Scope, CheckSaysThatAVerdictStandsWithinItsModelOnly) {
     EXPECT_EQ(to_json(result)["claims"][0]["scope"][0]["effect"], tint.scope[0].effect);
 }
 
+TEST(Scope, GoesOnWithoutAClaimThatHasNoSceneAndTellsWhatItCouldNot) {
+    const ScopeResult result = studied({"three-lines", "solid-vs-hollow"}, true, {{"orb.radius_mm", "160"}});
+    ASSERT_EQ(result.claims.size(), 1u);
+    EXPECT_EQ(result.claims.front().claim, "solid-vs-hollow");
+    ASSERT_EQ(result.problems.size(), 1u);
+    EXPECT_NE(to_text(result, false).find("Not asked: three-lines (text): a rectangle cuts"), std::string::npos);
+    EXPECT_THROW(studied({"three-lines"}, true, {{"orb.radius_mm", "160"}}), Error);
+
+    const ScopeResult blind = studied({"soft-light"}, true, {{"image.width_px", "8"}, {"image.height_px", "8"}});
+    EXPECT_NE(to_text(blind, false).find("do not exist with these values, and of them nothing is said: soft-light"),
+              std::string::npos)
+        << to_text(blind, false);
+}
+
 } // namespace
 } // namespace threefold

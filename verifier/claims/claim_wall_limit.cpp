@@ -171,12 +171,12 @@ std::string study_note(const ClaimContext &context, const FoldNumbers &here) {
     const FoldNumbers n = fold_numbers(context, {assign("orb.wall_mm", study_wall_mm)});
     const double rim = rim_arcmin(n.orb, n.eye_mm),
                  jump = greatest_jump_mm(n, all_folds) / n.criterion_mm * n.acuity_arcmin;
-    const bool seen = rim > n.acuity_arcmin || jump > n.acuity_arcmin;
+    const bool seen = jump > n.acuity_arcmin;
+    if (std::isnan(jump)) return said + " At that wall the folds cannot be read.";
     return fmt::format(
-        "{} {} for an eye of {:g} minute(s) of arc: at that wall the dark rim is {:.3g}' wide, seen from "
-        "{:g} mm{}.",
-        said, seen ? "That is not so" : "That is so", n.acuity_arcmin, rim, n.eye_mm,
-        std::isnan(jump) ? "" : fmt::format(", and the leftmost fold breaks by {:.3g}'", jump));
+        "{} {} for an eye of {:g} minute(s) of arc: at that wall the leftmost fold breaks by {:.3g}', seen "
+        "from {:g} mm; the dark rim is {:.3g}' wide.",
+        said, seen ? "That is not so" : "That is so", n.acuity_arcmin, jump, n.eye_mm, rim);
 }
 
 std::vector<ScopeNumber> scope(const ClaimContext &context, const ScopeSettings &settings) {

@@ -49,7 +49,8 @@ std::optional<ScopeRay> ray_of(const ScopeRequest &request) {
     const auto turn = optics::deflection(orb, impact);
     if (!light || !turn || optics::course(orb, impact) != optics::Course::through_hollow) return std::nullopt;
     const auto turn_at = [&](double nm) {
-        const auto coloured = orb_with(std::max(1.0, optics::index_at_wavelength(index, request.settings.abbe_number, nm)));
+        const auto coloured =
+            orb_with(std::max(1.0, optics::index_at_wavelength(index, request.settings.abbe_number, nm)));
         return optics::deflection(coloured, optics::impact_at(coloured, request.impact_mm)).value_or(*turn);
     };
     const double red = turn_at(request.settings.greatest_wavelength_nm),
@@ -130,7 +131,13 @@ ScopeResult study_scope(const ScopeRequest &request) {
             ClaimScope scope{claim.name, claim.statement, std::string(to_string(preset)), true, {}};
             scope.answered = static_cast<bool>(claim.scope);
             const ClaimContext context{request.scenes, preset, request.assignments, true};
-            if (claim.scope) scope.numbers = claim.scope(context, request.settings);
+            try {
+                if (claim.scope) scope.numbers = claim.scope(context, request.settings);
+            } catch (const Error &error) {
+                if (error.code() != Exit::bad_data || request.claims.size() * request.presets.size() == 1) throw;
+                result.problems.push_back(fmt::format("{} ({}): {}", claim.name, to_string(preset), error.what()));
+                continue;
+            }
             for (ScopeNumber &number : scope.numbers)
                 for (const EffectEntry &entry : effects()) {
                     Bound &bound = number.bounds.of(entry.effect);
@@ -147,6 +154,8 @@ ScopeResult study_scope(const ScopeRequest &request) {
                 }
             result.claims.push_back(std::move(scope));
         }
+    if (result.claims.empty())
+        throw Error(Exit::bad_data, fmt::format("no claim has a scene with these values: {}", result.problems.front()));
     return result;
 }
 

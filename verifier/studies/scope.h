@@ -48,7 +48,7 @@ struct ScopeResult {
     ScopeSettings settings;
     std::optional<ScopeRay> ray; ///< nothing where it does not go straight through
     std::vector<ClaimScope> claims;
-    std::vector<std::string> problems; ///< pictures that could not be made
+    std::vector<std::string> problems; ///< claims without a scene, and pictures that could not be made
 };
 
 /// Throws Error(usage) for an assignment that no scene of the catalogue has, and as the scenes do.

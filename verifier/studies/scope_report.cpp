@@ -57,28 +57,48 @@ std::string named(const ScopeResult &result, const ClaimScope &scope) {
 
 std::string ray_text(const ScopeRay &r) {
     return fmt::format(
-        "One ray, straight through a hollow orb of {:g} mm with a wall of {:g} mm and an index of {:g}, {:g} mm from the "
+        "One ray, straight through a hollow orb of {:g} mm with a wall of {:g} mm and an index of {:g}, {:g} mm from "
+        "the "
         "axis: with polarisation carried {:.3f} of its light arrives, where renderers, which take light as unpolarised "
-        "anew at every surface, say {:.3f}: {:.1f} % more. The glass absorbs {:.2g} % of it. It is turned by {:.2f} mrad "
+        "anew at every surface, say {:.3f}: {:.1f} % more. The glass absorbs {:.2g} % of it. It is turned by {:.2f} "
+        "mrad "
         "outwards, over the visible range by {:.2f} to {:.2f}.",
-        r.outer_mm, r.wall_mm, r.index, r.impact_mm, r.polarised, r.unpolarised, 100 * (r.polarised / r.unpolarised - 1),
-        100 * r.absorbed, -1e3 * r.turn_rad, -1e3 * r.turn_greatest_rad, -1e3 * r.turn_least_rad);
+        r.outer_mm, r.wall_mm, r.index, r.impact_mm, r.polarised, r.unpolarised,
+        100 * (r.polarised / r.unpolarised - 1), 100 * r.absorbed, -1e3 * r.turn_rad, -1e3 * r.turn_greatest_rad,
+        -1e3 * r.turn_least_rad);
 }
 
 std::string conclusion(const ScopeResult &result) {
     std::vector<std::string> required;
+    std::vector<std::string> unknown, not_asked;
     std::size_t untold = 0;
     for (const ClaimScope &scope : result.claims) {
+        const auto some = [&](const auto &holds) {
+            return std::ranges::any_of(scope.numbers, [&](const ScopeNumber &n) {
+                return std::ranges::any_of(effects(),
+                                           [&](const EffectEntry &e) { return holds(n, n.bounds.of(e.effect)); });
+            });
+        };
+        if (some([](const ScopeNumber &, const Bound &bound) { return bound.picture != nullptr; }))
+            not_asked.push_back(named(result, scope));
+        if (some([](const ScopeNumber &n, const Bound &bound) { return bound.depends && std::isnan(n.margin); }))
+            unknown.push_back(named(result, scope));
         std::vector<std::string_view> names;
         for (const Effect effect : scope.required()) names.push_back(to_string(effect));
         if (!names.empty()) required.push_back(fmt::format("{} ({})", named(result, scope), fmt::join(names, ", ")));
         untold += !scope.answered;
     }
-    std::string text = required.empty()
-                           ? "No effect that the models leave out could move a claim's number by more than its margin."
-                           : fmt::format("Within their models only: {}. For the other claims asked nothing that is left out "
-                                         "could move a number by more than its margin.",
-                                         fmt::join(required, "; "));
+    std::string text =
+        required.empty()
+            ? "No effect that the models leave out could move a claim's number by more than its margin."
+            : fmt::format("Within their models only: {}. For the other claims asked nothing that is left out "
+                          "could move a number by more than its margin.",
+                          fmt::join(required, "; "));
+    if (!unknown.empty())
+        text += fmt::format(" But some numbers do not exist with these values, and of them nothing is said: {}.",
+                            fmt::join(unknown, ", "));
+    if (!not_asked.empty())
+        text += fmt::format(" But effects that take a picture were not asked: {}.", fmt::join(not_asked, ", "));
     if (untold > 0) text += fmt::format(" {} claim(s) do not say what they leave out.", untold);
     for (const std::string &problem : result.problems) text += " Not asked: " + problem + ".";
     return text;
@@ -190,13 +210,14 @@ std::string to_text(const ScopeResult &result, bool every_number) {
 }
 
 std::string to_markdown(const ScopeResult &result) {
-    std::string out = fmt::format(
-        "# What the claims leave out, and whether it matters\n\nMade by `{}` (Threefold {}).\n\n{}\n\n",
-        result.command, result.threefold_version, conclusion(result));
+    std::string out =
+        fmt::format("# What the claims leave out, and whether it matters\n\nMade by `{}` (Threefold {}).\n\n{}\n\n",
+                    result.command, result.threefold_version, conclusion(result));
     if (result.ray) out += ray_text(*result.ray) + "\n\n";
-    out += "Each cell is the greatest of the claim's bounds, as a share of its number's margin; bold is more than all of "
-           "it: the effect is required, and the claim holds within its model only. `-`: no number of the claim can "
-           "depend on the effect.\n\n| claim |";
+    out +=
+        "Each cell is the greatest of the claim's bounds, as a share of its number's margin; bold is more than all of "
+        "it: the effect is required, and the claim holds within its model only. `-`: no number of the claim can "
+        "depend on the effect.\n\n| claim |";
     for (const EffectEntry &entry : effects()) out += fmt::format(" {} |", entry.name);
     out += "\n|---|";
     for (std::size_t k = 0; k < effects().size(); ++k) out += "---|";
@@ -208,12 +229,13 @@ std::string to_markdown(const ScopeResult &result) {
     }
     out += fmt::format("\nReckoned for: {}.\n\n", settings_text(result.settings));
     for (const EffectEntry &entry : effects()) out += fmt::format("- **{}**: {}\n", entry.name, entry.meaning);
-    out += "\nThe *margin* of a number is its distance, by the closed form, from the threshold at which the conclusion "
-           "flips; of an equality, the tolerance that `check` gives an exact renderer which stores 16 bits. A bound is "
-           "reckoned by the claim's own closed form in the other world (at another index, for s and p apart, with light "
-           "lost on its way, from the points of a pupil); where a whole picture is the number, by conservation of energy, "
-           "by albedo times form factor, or by the tracer. The sources of the formulas are in the headers of "
-           "`verifier/optics/` and `verifier/claims/scope_bounds.h`.\n";
+    out +=
+        "\nThe *margin* of a number is its distance, by the closed form, from the threshold at which the conclusion "
+        "flips; of an equality, the tolerance that `check` gives an exact renderer which stores 16 bits. A bound is "
+        "reckoned by the claim's own closed form in the other world (at another index, for s and p apart, with light "
+        "lost on its way, from the points of a pupil); where a whole picture is the number, by conservation of energy, "
+        "by albedo times form factor, or by the tracer. The sources of the formulas are in the headers of "
+        "`verifier/optics/` and `verifier/claims/scope_bounds.h`.\n";
     for (const ClaimScope &scope : result.claims) {
         out += fmt::format("\n## {}\n\n{}\n", named(result, scope), scope.statement);
         for (const ScopeNumber &n : scope.numbers) {
@@ -224,8 +246,7 @@ std::string to_markdown(const ScopeResult &result) {
                 const Bound &bound = n.bounds.of(entry.effect);
                 const std::string required = required_text(n, entry.effect);
                 out += fmt::format("| {} | {} | {} | {} | {} |\n", entry.name, bound_text(n, bound),
-                                   share_text(n, bound), required == "required" ? "**required**" : required,
-                                   bound.why);
+                                   share_text(n, bound), required == "required" ? "**required**" : required, bound.why);
             }
         }
     }

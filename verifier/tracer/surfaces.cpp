@@ -4,8 +4,12 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+
+#include "scenes/access.h"
 
 namespace threefold::tracer {
 
@@ -29,13 +33,30 @@ void meet_one_by_one(const std::vector<Rectangle> &rectangles, const Ray &ray, s
     }
 }
 
+/// Embree's numbers are single: they are finest about the orb, or else about the middle of what can be met. Where the
+/// camera looks must not matter.
+Vec3 finest_about(const Scene &scene) {
+    Vec3 low(std::numeric_limits<double>::infinity()), high = -low;
+    const auto hold = [&](Vec3 point) {
+        low = glm::min(low, point);
+        high = glm::max(high, point);
+    };
+    for (const Object &object : scene.objects) {
+        if (const auto orb = outer_sphere(object.shape)) return orb->centre_mm;
+        if (const Quad *quad = std::get_if<Quad>(&object.shape)) hold(quad->centre_mm);
+        if (const Mesh *mesh = std::get_if<Mesh>(&object.shape))
+            for (const Vec3 &v : mesh->vertices_mm) hold(v);
+    }
+    return low.x <= high.x ? (low + high) / 2.0 : Vec3(0);
+}
+
 } // namespace
 
 Surfaces::Surfaces(const Scene &scene, bool exact) : scene_(&scene), exact_(exact) {
     const auto quads = static_cast<std::size_t>(
         std::ranges::count_if(scene.objects, [](const Object &o) { return std::holds_alternative<Quad>(o.shape); }));
     const auto world = [&]() -> EmbreeWorld & {
-        if (!world_) world_ = std::make_unique<EmbreeWorld>(scene.camera.target_mm);
+        if (!world_) world_ = std::make_unique<EmbreeWorld>(finest_about(scene));
         return *world_;
     };
     for (std::size_t i = 0; i < scene.objects.size(); ++i)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verifier/tracer/tracer.h"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <ctime>
@@ -18,6 +19,7 @@
 #include "scenes/access.h"
 #include "scenes/camera.h"
 #include "scenes/error.h"
+#include "scenes/geometry.h"
 #include "scenes/validate.h"
 #include "verifier/tracer/pixel.h"
 
@@ -33,8 +35,9 @@ double process_cpu_seconds() {
     return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) * 1e-9;
 }
 
-/// Numbers are finest about the origin, and the orb is where they matter: the scene with its first orb there. Nothing of
-/// it is lost, since differences of near numbers are exact. Empty where the orb stands there already, or there is none.
+/// Numbers are finest about the origin, and the orb is where they matter: the scene with its first orb there. Nothing
+/// of it is lost, since differences of near numbers are exact. Empty where the orb stands there already, or there is
+/// none.
 std::optional<Scene> about_its_orb(const Scene &scene) {
     std::optional<Vec3> centre;
     for (const Object &object : scene.objects)
@@ -62,12 +65,51 @@ void refuse_too_far_an_eye(const Scene &scene) {
         const double distance_mm = glm::distance(orb->centre_mm, scene.camera.eye_mm);
         const double farthest_mm = greatest_share / spacing * orb->radius_mm;
         if (distance_mm > farthest_mm)
-            throw Error(Exit::bad_data,
-                        fmt::format("the tracer in single precision: the eye is {:.3g} mm from an orb of radius {:.3g} mm; "
-                                    "beyond {:.3g} mm it cannot tell whether the orb or what stands behind comes first",
-                                    distance_mm, orb->radius_mm, farthest_mm),
-                        "use double precision");
+            throw Error(
+                Exit::bad_data,
+                fmt::format("the tracer in single precision: the eye is {:.3g} mm from an orb of radius {:.3g} mm; "
+                            "beyond {:.3g} mm it cannot tell whether the orb or what stands behind comes first",
+                            distance_mm, orb->radius_mm, farthest_mm),
+                "use double precision");
     }
+}
+
+/// A ray inside glass meets nothing but the orb's own surfaces. A hand that is pressed into it by less than what
+/// matters to a picture is let pass.
+void refuse_meshes_in_glass(const Scene &scene) {
+    constexpr double least_share = 1 - 1e-3; // of the radius
+    for (const Object &orb : scene.objects)
+        if (const auto sphere = outer_sphere(orb.shape))
+            for (const Object &other : scene.objects)
+                if (const Mesh *mesh = std::get_if<Mesh>(&other.shape))
+                    if (const double nearest_mm = distance_to(*mesh, sphere->centre_mm);
+                        nearest_mm < least_share * sphere->radius_mm)
+                        throw Error(Exit::bad_data,
+                                    fmt::format("the mesh {} reaches into the glass orb {} ({:.4g} mm from its centre, "
+                                                "radius {:.4g} mm): the tracer meets nothing in there",
+                                                other.name, orb.name, nearest_mm, sphere->radius_mm),
+                                    "move it out of the orb, or render with POV-Ray or Cycles");
+}
+
+/// Through Embree a ray begins at a place in single precision: so far away that this is a good part of a pixel.
+void refuse_too_far_an_eye_for_meshes(const Scene &scene) {
+    constexpr double spacing = 0x1p-23, greatest_px = 0.05;
+    const bool meshes =
+        std::ranges::any_of(scene.objects, [](const Object &o) { return std::holds_alternative<Mesh>(o.shape); });
+    if (!meshes) return;
+    Vec3 middle = scene.camera.target_mm;
+    for (const Object &object : scene.objects)
+        if (const auto orb = outer_sphere(object.shape)) middle = orb->centre_mm;
+    const Film film(scene.camera);
+    const double distance_mm = glm::distance(scene.camera.eye_mm, middle);
+    const double pixel_mm = film.pixel() * (film.is_perspective() ? distance_mm : 1);
+    if (spacing * distance_mm > greatest_px * pixel_mm)
+        throw Error(
+            Exit::bad_data,
+            fmt::format("the tracer meets meshes from an eye in single precision: {:.3g} mm away that is {:.2g} "
+                        "of a pixel, {:g} at most",
+                        distance_mm, spacing * distance_mm / pixel_mm, greatest_px),
+            "bring the eye nearer, or make the field of view wider or the pixels fewer");
 }
 
 template <class Real>
@@ -126,7 +168,10 @@ TracerOutcome trace(const RenderJob &job, const TracerSettings &settings,
     if (n.environment_on_diffuse)
         throw Error(Exit::bad_data,
                     "the tracer lights diffuse surfaces by parallel lights only: give the environment a dome of them");
-    if (job.most_bounces) throw Error(Exit::bad_data, "the tracer ends a tree by its weight, not by a number of surfaces");
+    if (job.most_bounces)
+        throw Error(Exit::bad_data, "the tracer ends a tree by its weight, not by a number of surfaces");
+    refuse_meshes_in_glass(job.scene);
+    refuse_too_far_an_eye_for_meshes(job.scene);
     TracerOutcome outcome;
     const bool roulette = settings.transport == Transport::roulette;
     tbb::task_arena arena(job.threads > 0 ? job.threads : tbb::task_arena::automatic);
