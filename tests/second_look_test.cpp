@@ -56,7 +56,7 @@ TEST(SecondLook, IsNotTakenWhereNothingIsOpenOrNoNumberOfReplicatesWouldDo) {
 TEST(SecondLook, SettlesWhatTheFirstLeavesOpen) {
     const tests::TemporaryFolder folder;
     auto request = quick_request<CheckRequest>(folder.path(), {"three-lines"});
-    request.assignments = {{"criterion.acuity_arcmin", "0.1"}};
+    request.assignments = {{"criterion.acuity_arcmin", "0.03"}};
     const RunResult result = check(request).result;
     EXPECT_EQ(result.verdict, Verdict::holds) << result.summary;
     int twice = 0;

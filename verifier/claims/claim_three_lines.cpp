@@ -28,7 +28,7 @@ namespace threefold {
 namespace {
 
 constexpr double film_orb_share = 0.8; ///< of the film's width that the orb fills
-constexpr double pixels_per_half_width = 4;
+constexpr double pixels_per_half_width = 6;
 constexpr int margin_px = 6, most_px = 640;
 constexpr double reading_px = 0.01;       ///< cubic convolution errs by a tenth of it, see tests/dark_line_test.cpp
 constexpr double finest_surface = 1.2e-5; ///< of the radius: finer spheres cost seconds and move no verdict
@@ -47,6 +47,8 @@ Camera measuring_camera(const LinesAsked &asked, Camera camera) {
     constexpr double coarse_px = 1 << 20; // positions on this film are rounded to a part of a pixel of the final one
     camera.width_px = camera.height_px = static_cast<int>(coarse_px);
     Vec2 low(std::numeric_limits<double>::infinity()), high(-low);
+    const double away = camera.projection == Projection::orthographic ? 1 : asked.view.plane_distance_mm(camera);
+    const double film_mm = 2 * film_half_width(camera) * away;
     double narrowest = 1;
     for (const NamedLine &named : asked.lines)
         for (const double impact : {asked.view.circles.inside_mm, asked.view.circles.outside_mm}) {
@@ -61,11 +63,11 @@ Camera measuring_camera(const LinesAsked &asked, Camera camera) {
                 low = glm::min(low, at);
                 high = glm::max(high, at);
             }
+            if (const auto steepness = mm_over_a_pixel(asked.view, camera, named.line, impact))
+                narrowest = std::min(narrowest, film_mm / coarse_px / *steepness);
             if (places[0] && places[1])
                 narrowest = std::min(narrowest, std::abs(*places[1] - *places[0]) / (2 * width));
         }
-    const double away = camera.projection == Projection::orthographic ? 1 : asked.view.plane_distance_mm(camera);
-    const double film_mm = 2 * film_half_width(camera) * away;
     double film_px = film_mm / asked.lines.front().line.half_width_mm * pixels_per_half_width / narrowest;
     if (!(low.x < high.x) || !(low.y < high.y)) { // no line is seen: there is nothing to be read
         camera.width_px = camera.height_px = 64;

@@ -4,18 +4,20 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include <glm/geometric.hpp>
 
 #include "scenes/catalogue/three_lines.h"
 #include "verifier/claims/flip.h"
+#include "verifier/measure/dark_line.h"
 
 namespace threefold {
 
 namespace {
 
 constexpr double search_rad = 1.4; ///< to either side: on a circle a straight line is met once within a right angle
-constexpr int strips = 24;         ///< of a soft line's width, for its centre of darkness
+constexpr int strips = 192;        ///< of a soft line's width, for its centre of darkness
 
 std::optional<Vec3> landing_of(const LinesView &view, const Ray &ray) {
     if (impact_parameter(ray, view.orb.centre_mm) >= view.orb.optics.outer_mm)
@@ -41,6 +43,30 @@ double distance_from(const LinesView &view, const SoftLine &line, Vec3 point_mm)
     const Vec3 from_middle = point_mm - view.scale.origin_mm;
     if (is_beyond_bend(view, line, point_mm)) return (from_middle - *line.bend_mm * view.along).y;
     return glm::dot(from_middle, view.scale.across) - line.apart_mm;
+}
+
+std::optional<double> mm_over_a_pixel(const LinesView &view, const Camera &camera, const SoftLine &line,
+                                      double impact_mm) {
+    const auto azimuth = azimuth_of(view, camera, line, impact_mm, 0);
+    if (!azimuth) return std::nullopt;
+    constexpr double step = 1e-5;
+    double squares = 0;
+    // Along the radius and along the circle, which cross at right angles.
+    for (const bool radial : {true, false}) {
+        std::array<double, 2> distances{};
+        std::array<Vec2, 2> places{};
+        for (const std::size_t k : {0u, 1u}) {
+            const double off = (k == 0 ? -step : step), impact = radial ? impact_mm * (1 + off) : impact_mm;
+            const auto ray = ray_past(camera, view.orb.centre_mm, impact, radial ? *azimuth : *azimuth + off);
+            const auto landing = ray ? landing_of(view, *ray) : std::nullopt;
+            if (!landing) return std::nullopt;
+            distances.at(k) = distance_from(view, line, *landing);
+            places.at(k) = image_position(camera, *ray);
+        }
+        const double slope = (distances[1] - distances[0]) / glm::length(places[1] - places[0]);
+        squares += slope * slope;
+    }
+    return std::sqrt(squares);
 }
 
 bool shows_bend(const LinesView &view, const Camera &camera, const SoftLine &line, double impact_mm) {
@@ -70,7 +96,8 @@ std::optional<double> azimuth_of(const LinesView &view, const Camera &camera, co
 std::optional<double> predicted_place(const LinesView &view, const Camera &camera, const SoftLine &line,
                                       double impact_mm) {
     std::array<double, strips + 1> places{};
-    const double reach = soft_reach * line.half_width_mm;
+    // As far as a dip is measured to reach.
+    const double reach = soft_reach * line.half_width_mm * 2 / std::numbers::pi * std::acos(std::sqrt(dip_ends));
     for (int k = 0; k <= strips; ++k) {
         const auto azimuth = azimuth_of(view, camera, line, impact_mm, reach * (2.0 * k / strips - 1));
         if (!azimuth) return std::nullopt;

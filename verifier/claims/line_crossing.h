@@ -41,6 +41,11 @@ double distance_from(const LinesView &view, const SoftLine &line, Vec3 point_mm)
 std::optional<double> azimuth_of(const LinesView &view, const Camera &camera, const SoftLine &line, double impact_mm,
                                  double off_centre_mm);
 
+/// By how many millimetres the distance from the line's centre changes over a pixel of the picture, where the line is
+/// seen on the circle: steep where the orb squeezes what lies behind it. Nothing where it is not seen.
+std::optional<double> mm_over_a_pixel(const LinesView &view, const Camera &camera, const SoftLine &line,
+                                      double impact_mm);
+
 /// Does the line, with all its soft width, meet the circle on both of its arms? What is read there is no place of one.
 bool shows_bend(const LinesView &view, const Camera &camera, const SoftLine &line, double impact_mm);
 

@@ -12,7 +12,6 @@ namespace threefold {
 namespace {
 
 constexpr double least_dip = 0.1; ///< of the bright level: less is no line
-constexpr double dip_ends = 2e-3; ///< of the dip's depth: there it is over
 constexpr double border_px = 2;   ///< what cubic convolution needs around a position
 
 /// Weights of the samples at -1, 0, 1, 2 for a position t in [0, 1].

@@ -38,6 +38,9 @@ std::vector<PathPoint> circle_path(const Camera &camera, Vec3 centre_mm, double 
 /// nothing to second order. The camera says where in its pixel each sample was taken.
 double value_at(const Image &image, const Camera &camera, Vec2 image_px, int channel);
 
+/// Of a dip's depth: there it is over.
+inline constexpr double dip_ends = 2e-3;
+
 struct DarkCentre {
     double place;
     Vec2 image_px;
