@@ -2,6 +2,7 @@
 // The glass, the surface, or the outer sphere of any shape, if it has one.
 #pragma once
 
+#include <optional>
 #include <utility>
 
 #include "scenes/scene.h"
@@ -49,6 +50,12 @@ inline std::optional<Sphere> outer_sphere(const Shape &shape) {
                           [](const Mesh &) { return Result(); },
                       },
                       shape);
+}
+
+inline std::optional<Sphere> first_orb(const Scene &scene) {
+    for (const Object &object : scene.objects)
+        if (const auto orb = outer_sphere(object.shape)) return orb;
+    return std::nullopt;
 }
 
 inline Glass *glass_of(Shape &shape) { return const_cast<Glass *>(glass_of(std::as_const(shape))); }

@@ -116,11 +116,9 @@ void Parameters::set(std::string_view name, std::string_view value) {
         words_.find(name)->second = value;
         return;
     }
-    double number = 0;
-    const auto [end, status] = std::from_chars(value.data(), value.data() + value.size(), number);
-    if (status != std::errc{} || end != value.data() + value.size())
-        throw Error(Exit::bad_data, fmt::format("{} must be a number, not '{}'", name, value));
-    set(name, number);
+    const auto number = parse_number(value);
+    if (!number) throw Error(Exit::bad_data, fmt::format("{} must be a number, not '{}'", name, value));
+    set(name, *number);
 }
 
 double Parameters::number(std::string_view name) const {
@@ -139,6 +137,13 @@ const std::string &Parameters::word(std::string_view name) const {
 
 std::string Parameters::text(std::string_view name) const {
     return spec(name).is_number() ? fmt::format("{}", number(name)) : word(name);
+}
+
+std::optional<double> parse_number(std::string_view text) {
+    double number = 0;
+    const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (status != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+    return number;
 }
 
 Assignment parse_assignment(std::string_view text) {

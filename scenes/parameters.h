@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -65,6 +66,9 @@ private:
     std::map<std::string, double, std::less<>> numbers_;
     std::map<std::string, std::string, std::less<>> words_;
 };
+
+/// A decimal number and nothing beside it; "inf" and "nan" count as numbers.
+std::optional<double> parse_number(std::string_view text);
 
 /// A `name=value` of the command line.
 struct Assignment {

@@ -150,15 +150,11 @@ double distance(const Quad &quad, Vec3 point) {
 
 /// Where the rays of an orthographic camera begin.
 Quad film_of(const Camera &camera) {
-    const CameraFrame frame = camera_frame(camera);
-    const double pixel_mm = camera.orthographic_width_mm / camera.width_px;
-    const Crop part = camera.crop.value_or(Crop{0, 0, camera.width_px, camera.height_px});
-    const Vec2 middle_px(part.x_px + part.width_px / 2.0 - camera.width_px / 2.0,
-                         camera.height_px / 2.0 - part.y_px - part.height_px / 2.0);
-    return {camera.eye_mm + pixel_mm * (middle_px.x * frame.right + middle_px.y * frame.up),
-            part.width_px / 2.0 * pixel_mm * frame.right,
-            part.height_px / 2.0 * pixel_mm * frame.up,
-            {}};
+    const Film film(camera);
+    const Vec2 half_px = Vec2(camera.image_width_px(), camera.image_height_px()) / 2.0;
+    const Vec3 half_u_mm = half_px.x * film.pixel() * film.frame().right,
+               half_v_mm = half_px.y * film.pixel() * film.frame().up;
+    return {film.ray(half_px).origin_mm, half_u_mm, half_v_mm, {}};
 }
 
 /// Glass must stand free: a ray inside it meets nothing but its own surfaces. Touching is allowed.

@@ -2,8 +2,6 @@
 #include "verifier/check/plan.h"
 
 #include <algorithm>
-#include <charconv>
-#include <limits>
 #include <optional>
 
 #include <fmt/format.h>
@@ -39,6 +37,12 @@ void require_in_range(const CheckRequest &request) {
                 Parameters values(recipe.parameters, preset);
                 if (values.has(a.name)) values.set(a.name, a.value);
             }
+}
+
+/// "1e3" and "1000" are the same; a word or a path is itself.
+bool is_same_value(const std::string &a, const std::string &b) {
+    const auto x = parse_number(a), y = parse_number(b);
+    return a == b || (x && y && *x == *y);
 }
 
 /// " with orb.radius_mm=160, glass.index=1.6"
@@ -120,21 +124,6 @@ std::vector<PlannedClaim> plan_of(const CheckRequest &request) {
     if (!first) require_known(request.assignments, plan); // what a claim left out would have known is not known here
     return plan;
 }
-
-namespace {
-
-/// "1e3" and "1000" are the same; a word or a path is itself.
-bool is_same_value(const std::string &a, const std::string &b) {
-    const auto number = [](const std::string &text) {
-        double value = std::numeric_limits<double>::quiet_NaN();
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        return error == std::errc() && end == text.data() + text.size() ? value
-                                                                        : std::numeric_limits<double>::quiet_NaN();
-    };
-    return a == b || number(a) == number(b);
-}
-
-} // namespace
 
 std::vector<std::string> unused_values(const PlannedClaim &planned) {
     std::vector<std::string> names;

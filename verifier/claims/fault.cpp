@@ -2,7 +2,6 @@
 #include "verifier/claims/fault.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -119,13 +118,13 @@ InjectedFault parse_injected_fault(std::string_view text) {
     if (entry.sizes == FaultEntry::Sizes::one)
         throw Error(Exit::usage, fmt::format("the fault {} is there or not: it has no size", entry.name));
     const std::string_view number = text.substr(at + 1);
-    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), injected.size);
-    if (error != std::errc() || end != number.data() + number.size() || !std::isfinite(injected.size) ||
-        injected.size < entry.least || injected.size > entry.greatest ||
-        (entry.sizes == FaultEntry::Sizes::whole && injected.size != std::floor(injected.size)))
+    const auto size = parse_number(number);
+    if (!size || !std::isfinite(*size) || *size < entry.least || *size > entry.greatest ||
+        (entry.sizes == FaultEntry::Sizes::whole && *size != std::floor(*size)))
         throw Error(Exit::usage, fmt::format("the size of the fault {} must be a {}number from {:g} to {:g}, not '{}'",
                                              entry.name, entry.sizes == FaultEntry::Sizes::whole ? "whole " : "",
                                              entry.least, entry.greatest, number));
+    injected.size = *size;
     return injected;
 }
 

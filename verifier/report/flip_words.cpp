@@ -2,11 +2,11 @@
 #include "verifier/report/flip_words.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include <fmt/format.h>
 
+#include "scenes/parameters.h"
 #include "verifier/report/numbers.h"
 
 namespace threefold::report {
@@ -28,11 +28,7 @@ std::string five_digits(double value) {
 std::optional<double> parameter_of(const ExperimentRecord &e, const std::string &name) {
     const auto found = e.parameters.find(name);
     if (found == e.parameters.end()) return std::nullopt;
-    const std::string &text = found->second;
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-    return value;
+    return parse_number(found->second);
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 #include "verifier/tolerance/tile_noise.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <boost/math/distributions/chi_squared.hpp>
@@ -19,21 +20,33 @@ constexpr int pilot_share = 4; ///< the pilot's pictures have so many times fewe
 
 /// Chance that a tile is found to hold whose mean has the standard error 1 and no error besides: |z| + t s <=
 /// tolerance, z normal and s^2 (n - 1) of chi squared, by Simpson's rule over the quantiles of s^2.
-double chance_to_hold(double tolerance, int replicates) {
-    constexpr int steps = 64;
-    const double freedom = replicates - 1;
-    const boost::math::chi_squared spread(freedom);
-    const boost::math::normal normal;
-    const double t = boost::math::quantile(complement(boost::math::students_t(freedom), significance));
-    const auto at = [&](double share) {
-        const double s = std::sqrt(boost::math::quantile(spread, std::clamp(share, 1e-9, 1 - 1e-9)) / freedom);
-        const double room = tolerance - t * s;
-        return room > 0 ? 2 * boost::math::cdf(normal, room) - 1 : 0;
-    };
-    double sum = at(0) + at(1);
-    for (int i = 1; i < steps; ++i) sum += (i % 2 ? 4 : 2) * at(static_cast<double>(i) / steps);
-    return sum / (3 * steps);
-}
+class ChanceToHold {
+public:
+    explicit ChanceToHold(int replicates) {
+        const double freedom = replicates - 1;
+        const boost::math::chi_squared spread(freedom);
+        const double t = boost::math::quantile(complement(boost::math::students_t(freedom), significance));
+        for (int i = 0; i <= steps; ++i) {
+            const double share = std::clamp(static_cast<double>(i) / steps, 1e-9, 1 - 1e-9);
+            taken_.at(static_cast<std::size_t>(i)) = t * std::sqrt(boost::math::quantile(spread, share) / freedom);
+        }
+    }
+
+    double operator()(double tolerance) const {
+        const boost::math::normal normal;
+        double sum = 0;
+        for (int i = 0; i <= steps; ++i) {
+            const double room = tolerance - taken_.at(static_cast<std::size_t>(i));
+            const double weight = i == 0 || i == steps ? 1 : i % 2 ? 4 : 2;
+            if (room > 0) sum += weight * (2 * boost::math::cdf(normal, room) - 1);
+        }
+        return sum / (3 * steps);
+    }
+
+private:
+    static constexpr int steps = 64;
+    std::array<double, steps + 1> taken_{}; ///< of the tolerance, by the interval's half width
+};
 
 } // namespace
 
@@ -59,8 +72,9 @@ double expected_share(std::span<const double> deviations, int replicates, double
     // The chance by the tolerance over the standard error, in steps: it is asked for every tile.
     constexpr double step = 0.05, surely = 20;
     static constexpr int steps = static_cast<int>(surely / step);
+    const ChanceToHold chance_to_hold(replicates);
     std::vector<double> chance;
-    for (int i = 0; i <= steps; ++i) chance.push_back(chance_to_hold(i * step, replicates));
+    for (int i = 0; i <= steps; ++i) chance.push_back(chance_to_hold(i * step));
     double sum = 0;
     for (const double deviation : deviations) {
         const double x = tolerance * std::sqrt(static_cast<double>(replicates)) / deviation / step; // or infinite
@@ -86,9 +100,9 @@ int samples_for_tiles(const Witness &witness, const RenderJob &job, const TilesW
     const auto replicates = static_cast<int>(job.replicates.size());
     int samples = wanted.least_samples;
     while (samples < wanted.most_samples) {
-        std::vector<double> deviations = few;
-        for (double &d : deviations) d *= std::sqrt(static_cast<double>(pilot.samples_per_pixel) / samples);
-        if (expected_share(deviations, replicates, wanted.tolerance) >= share) break;
+        // Less noise is as good as more tolerance.
+        const double finer = std::sqrt(static_cast<double>(samples) / pilot.samples_per_pixel);
+        if (expected_share(few, replicates, wanted.tolerance * finer) >= share) break;
         samples = std::min(wanted.most_samples, samples + std::max(1, samples / 20));
     }
     return samples;

@@ -33,16 +33,21 @@ void meet_one_by_one(const std::vector<Rectangle> &rectangles, const Ray &ray, s
     }
 }
 
-/// Embree's numbers are single: they are finest about the orb, or else about the middle of what can be met. Where the
-/// camera looks must not matter.
+std::size_t rectangles_in(const Scene &scene) {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(scene.objects, [](const Object &o) { return std::holds_alternative<Quad>(o.shape); }));
+}
+
+} // namespace
+
 Vec3 finest_about(const Scene &scene) {
+    if (const auto orb = first_orb(scene)) return orb->centre_mm;
     Vec3 low(std::numeric_limits<double>::infinity()), high = -low;
     const auto hold = [&](Vec3 point) {
         low = glm::min(low, point);
         high = glm::max(high, point);
     };
     for (const Object &object : scene.objects) {
-        if (const auto orb = outer_sphere(object.shape)) return orb->centre_mm;
         if (const Quad *quad = std::get_if<Quad>(&object.shape)) hold(quad->centre_mm);
         if (const Mesh *mesh = std::get_if<Mesh>(&object.shape))
             for (const Vec3 &v : mesh->vertices_mm) hold(v);
@@ -50,11 +55,13 @@ Vec3 finest_about(const Scene &scene) {
     return low.x <= high.x ? (low + high) / 2.0 : Vec3(0);
 }
 
-} // namespace
+bool needs_embree(const Scene &scene) {
+    return rectangles_in(scene) > few_rectangles ||
+           std::ranges::any_of(scene.objects, [](const Object &o) { return std::holds_alternative<Mesh>(o.shape); });
+}
 
 Surfaces::Surfaces(const Scene &scene, bool exact) : scene_(&scene), exact_(exact) {
-    const auto quads = static_cast<std::size_t>(
-        std::ranges::count_if(scene.objects, [](const Object &o) { return std::holds_alternative<Quad>(o.shape); }));
+    const std::size_t quads = rectangles_in(scene);
     const auto world = [&]() -> EmbreeWorld & {
         if (!world_) world_ = std::make_unique<EmbreeWorld>(finest_about(scene));
         return *world_;

@@ -22,6 +22,13 @@ struct SurfaceHit {
     Left left() const { return {static_cast<std::uint32_t>(object), triangle}; }
 };
 
+/// Embree's numbers are single: they are finest about the orb, or else about the middle of what can be met. Where the
+/// camera looks must not matter.
+Vec3 finest_about(const Scene &scene);
+
+/// Is there more to meet than a few rectangles, even in double precision?
+bool needs_embree(const Scene &scene);
+
 /// Embree finds candidates in single precision; where `exact`, distance, uv and normal are then computed in double from
 /// the scene's own numbers. A ray that starts on a surface names it, so that no epsilon is needed. A few rectangles are
 /// met one by one instead, in double precision; without a mesh there is no Embree at all.

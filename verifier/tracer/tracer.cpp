@@ -39,26 +39,27 @@ double process_cpu_seconds() {
 /// of it is lost, since differences of near numbers are exact. Empty where the orb stands there already, or there is
 /// none.
 std::optional<Scene> about_its_orb(const Scene &scene) {
-    std::optional<Vec3> centre;
-    for (const Object &object : scene.objects)
-        if (const auto orb = outer_sphere(object.shape); orb && !centre) centre = orb->centre_mm;
-    if (!centre || *centre == Vec3(0)) return std::nullopt;
+    const auto orb = first_orb(scene);
+    if (!orb || orb->centre_mm == Vec3(0)) return std::nullopt;
+    const Vec3 centre = orb->centre_mm;
     Scene moved = scene;
     for (Object &object : moved.objects)
-        std::visit(overloaded{[&](GlassBall &b) { b.centre_mm -= *centre; },
-                              [&](GlassShell &s) { s.centre_mm -= *centre; }, [&](Quad &q) { q.centre_mm -= *centre; },
+        std::visit(overloaded{[&](GlassBall &b) { b.centre_mm -= centre; },
+                              [&](GlassShell &s) { s.centre_mm -= centre; }, [&](Quad &q) { q.centre_mm -= centre; },
                               [&](Mesh &m) {
-                                  for (Vec3 &v : m.vertices_mm) v -= *centre;
+                                  for (Vec3 &v : m.vertices_mm) v -= centre;
                               }},
                    object.shape);
-    moved.camera.eye_mm -= *centre;
-    moved.camera.target_mm -= *centre;
+    moved.camera.eye_mm -= centre;
+    moved.camera.target_mm -= centre;
     return moved;
 }
 
+constexpr double spacing = 0x1p-23; ///< of numbers in single precision, over their size
+
 /// Which of two things a ray meets first is told by their distances from the eye, rounded.
 void refuse_too_far_an_eye(const Scene &scene) {
-    constexpr double spacing = 0x1p-23, greatest_share = 0.1;
+    constexpr double greatest_share = 0.1;
     for (const Object &object : scene.objects) {
         const auto orb = outer_sphere(object.shape);
         if (!orb) continue;
@@ -78,38 +79,37 @@ void refuse_too_far_an_eye(const Scene &scene) {
 /// matters to a picture is let pass.
 void refuse_meshes_in_glass(const Scene &scene) {
     constexpr double least_share = 1 - 1e-3; // of the radius
-    for (const Object &orb : scene.objects)
-        if (const auto sphere = outer_sphere(orb.shape))
-            for (const Object &other : scene.objects)
-                if (const Mesh *mesh = std::get_if<Mesh>(&other.shape))
-                    if (const double nearest_mm = distance_to(*mesh, sphere->centre_mm);
-                        nearest_mm < least_share * sphere->radius_mm)
-                        throw Error(Exit::bad_data,
-                                    fmt::format("the mesh {} reaches into the glass orb {} ({:.4g} mm from its centre, "
-                                                "radius {:.4g} mm): the tracer meets nothing in there",
-                                                other.name, orb.name, nearest_mm, sphere->radius_mm),
-                                    "move it out of the orb, or render with POV-Ray or Cycles");
+    for (const Object &orb : scene.objects) {
+        const auto sphere = outer_sphere(orb.shape);
+        if (!sphere) continue;
+        for (const Object &other : scene.objects) {
+            const Mesh *mesh = std::get_if<Mesh>(&other.shape);
+            if (!mesh) continue;
+            const double nearest_mm = distance_to(*mesh, sphere->centre_mm);
+            if (nearest_mm < least_share * sphere->radius_mm)
+                throw Error(Exit::bad_data,
+                            fmt::format("the mesh {} reaches into the glass orb {} ({:.4g} mm from its centre, radius "
+                                        "{:.4g} mm): the tracer meets nothing in there",
+                                        other.name, orb.name, nearest_mm, sphere->radius_mm),
+                            "move it out of the orb, or render with POV-Ray or Cycles");
+        }
+    }
 }
 
 /// Through Embree a ray begins at a place in single precision: so far away that this is a good part of a pixel.
-void refuse_too_far_an_eye_for_meshes(const Scene &scene) {
-    constexpr double spacing = 0x1p-23, greatest_px = 0.05;
-    const bool meshes =
-        std::ranges::any_of(scene.objects, [](const Object &o) { return std::holds_alternative<Mesh>(o.shape); });
-    if (!meshes) return;
-    Vec3 middle = scene.camera.target_mm;
-    for (const Object &object : scene.objects)
-        if (const auto orb = outer_sphere(object.shape)) middle = orb->centre_mm;
+void refuse_too_far_an_eye_for_embree(const Scene &scene) {
+    constexpr double greatest_px = 0.05;
+    if (!needs_embree(scene)) return;
     const Film film(scene.camera);
-    const double distance_mm = glm::distance(scene.camera.eye_mm, middle);
+    const double distance_mm = glm::distance(scene.camera.eye_mm, finest_about(scene));
     const double pixel_mm = film.pixel() * (film.is_perspective() ? distance_mm : 1);
     if (spacing * distance_mm > greatest_px * pixel_mm)
-        throw Error(
-            Exit::bad_data,
-            fmt::format("the tracer meets meshes from an eye in single precision: {:.3g} mm away that is {:.2g} "
-                        "of a pixel, {:g} at most",
-                        distance_mm, spacing * distance_mm / pixel_mm, greatest_px),
-            "bring the eye nearer, or make the field of view wider or the pixels fewer");
+        throw Error(Exit::bad_data,
+                    fmt::format("the tracer meets meshes, and many rectangles, from an eye in single precision: {:.3g} "
+                                "mm away that is {:.2g} "
+                                "of a pixel, {:g} at most",
+                                distance_mm, spacing * distance_mm / pixel_mm, greatest_px),
+                    "bring the eye nearer, or make the field of view wider or the pixels fewer");
 }
 
 template <class Real>
@@ -171,7 +171,7 @@ TracerOutcome trace(const RenderJob &job, const TracerSettings &settings,
     if (job.most_bounces)
         throw Error(Exit::bad_data, "the tracer ends a tree by its weight, not by a number of surfaces");
     refuse_meshes_in_glass(job.scene);
-    refuse_too_far_an_eye_for_meshes(job.scene);
+    refuse_too_far_an_eye_for_embree(job.scene);
     TracerOutcome outcome;
     const bool roulette = settings.transport == Transport::roulette;
     tbb::task_arena arena(job.threads > 0 ? job.threads : tbb::task_arena::automatic);
