@@ -21,6 +21,7 @@
 #include "exporter/process/child.h"
 #include "exporter/run.h"
 #include "scenes/catalogue/catalogue.h"
+#include "tests/catalogue_scene.h"
 #include "tests/temporary_folder.h"
 
 namespace threefold {
@@ -30,14 +31,10 @@ using testing::HasSubstr;
 namespace fs = std::filesystem;
 
 Scene hollow(const std::string &wall_mm, const std::string &index = "1.51714", const std::string &size_px = "64") {
-    const std::vector<SceneRecipe> scenes = built_in_scenes();
-    const SceneRecipe &recipe = find_scene(scenes, "hollow");
-    Parameters values(recipe.parameters, Preset::text);
-    values.set("orb.wall_mm", wall_mm);
-    values.set("glass.index", index);
-    values.set("image.width_px", size_px);
-    values.set("image.height_px", size_px);
-    return recipe.make(values);
+    return catalogue_scene("hollow", {{"orb.wall_mm", wall_mm},
+                                      {"glass.index", index},
+                                      {"image.width_px", size_px},
+                                      {"image.height_px", size_px}});
 }
 
 ExportJob job_of(const Scene &scene, int samples) {

@@ -18,8 +18,8 @@
 #include "exporter/mesh/mesh_file.h"
 #include "exporter/mesh/obj_file.h"
 #include "exporter/povray/povray_folder.h"
-#include "scenes/catalogue/catalogue.h"
 #include "scenes/error.h"
+#include "tests/catalogue_scene.h"
 #include "tests/temporary_folder.h"
 #include "verifier/optics/transmitted_ray.h"
 #include "verifier/stmap/stmap.h"
@@ -32,14 +32,6 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 namespace fs = std::filesystem;
-
-Scene scene_named(const std::string &name, const std::vector<Assignment> &assignments = {}) {
-    const std::vector<SceneRecipe> scenes = built_in_scenes();
-    const SceneRecipe &recipe = find_scene(scenes, name);
-    Parameters values(recipe.parameters, Preset::text);
-    for (const Assignment &a : assignments) values.set(a.name, a.value);
-    return recipe.make(values);
-}
 
 ExportJob job_of(Scene scene) {
     ExportJob job;
@@ -72,7 +64,7 @@ Error refusal(const std::function<void()> &call) {
 // ---------------------------------------------------------------------------------------------------------------------
 
 TEST(ObjExport, ReadsBackWithTheBoundsOfTheScene) {
-    Scene scene = scene_named("hollow", {{"orb.shift_mm", "12.5"}, {"card.half_width_mm", "60"}});
+    Scene scene = catalogue_scene("hollow", {{"orb.shift_mm", "12.5"}, {"card.half_width_mm", "60"}});
     const tests::TemporaryFolder folder;
     write_all(folder, make_obj_files(job_of(scene)));
     const Mesh mesh = read_mesh(folder / "hollow.obj");
@@ -91,7 +83,7 @@ TEST(ObjExport, ReadsBackWithTheBoundsOfTheScene) {
 }
 
 TEST(ObjExport, IsReadBackToSinglePrecision) {
-    Scene scene = scene_named("calibration");
+    Scene scene = catalogue_scene("calibration");
     Mesh triangle;
     triangle.vertices_mm = {{-123.456789, 7.25, -1e4 / 3}, {1e-3 / 7, 99.999, 0}, {3, -4, 5.0 / 7}};
     triangle.triangles = {{0, 1, 2}};
@@ -108,7 +100,7 @@ TEST(ObjExport, IsReadBackToSinglePrecision) {
 }
 
 TEST(ObjExport, SaysGlassLightAndTexturesOfItsMaterials) {
-    Scene scene = scene_named("hollow", {{"glass.index", "1.6"}, {"glass.interface_transmittance", "0.5"}});
+    Scene scene = catalogue_scene("hollow", {{"glass.index", "1.6"}, {"glass.interface_transmittance", "0.5"}});
     const auto files = make_obj_files(job_of(scene));
     const std::string mtl = bytes_of(files, "hollow.mtl");
     EXPECT_THAT(mtl, HasSubstr("Ni 1.6\nTf 0.5 0.5 0.5\nd 1\nillum 7"));
@@ -117,7 +109,7 @@ TEST(ObjExport, SaysGlassLightAndTexturesOfItsMaterials) {
 }
 
 TEST(ObjExport, KeepsAHostileNameInOneWord) {
-    Scene scene = scene_named("calibration");
+    Scene scene = catalogue_scene("calibration");
     const Quad quad{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, Diffuse{}};
     scene.objects = {{"a\nmtllib /etc/passwd\n#", quad}, {"a\nmtllib /etc/passwd\n#", quad}, {"", quad}};
     ExportJob job = job_of(scene);
@@ -134,7 +126,7 @@ TEST(ObjExport, KeepsAHostileNameInOneWord) {
 }
 
 TEST(ObjExport, RefusesTheProbe) {
-    const Error error = refusal([] { make_obj_files(job_of(scene_named("hollow", {{"card.surface", "coordinate"}}))); });
+    const Error error = refusal([] { make_obj_files(job_of(catalogue_scene("hollow", {{"card.surface", "coordinate"}}))); });
     EXPECT_EQ(error.code(), Exit::bad_data);
     EXPECT_THAT(error.what(), HasSubstr("coordinate card \"card\""));
     EXPECT_THAT(error.hint(), HasSubstr("stmap"));
@@ -143,7 +135,7 @@ TEST(ObjExport, RefusesTheProbe) {
 // ---------------------------------------------------------------------------------------------------------------------
 
 TEST(PovrayExport, HasTheOptionsInAFileAndTheCommandInAnother) {
-    const auto files = make_povray_folder(job_of(scene_named("hollow")));
+    const auto files = make_povray_folder(job_of(catalogue_scene("hollow")));
     const std::string ini = bytes_of(files, "scene.ini"), readme = bytes_of(files, "README.txt");
     for (const char *option : {"Input_File_Name=scene.pov\n", "File_Gamma=1.0\n", "Antialias=off\n", "Final_Frame=2\n"})
         EXPECT_THAT(ini, HasSubstr(option));
@@ -154,7 +146,7 @@ TEST(PovrayExport, HasTheOptionsInAFileAndTheCommandInAnother) {
 // ---------------------------------------------------------------------------------------------------------------------
 
 TEST(StmapExport, SaysWhereTheClosedFormLands) {
-    Scene scene = scene_named("hollow", {{"image.width_px", "40"}, {"image.height_px", "30"}});
+    Scene scene = catalogue_scene("hollow", {{"image.width_px", "40"}, {"image.height_px", "30"}});
     RenderJob job;
     job.scene = scene;
     const Image map = stmap(job, stmap_target(scene, ""));
@@ -185,7 +177,7 @@ TEST(StmapExport, SaysWhereTheClosedFormLands) {
 }
 
 TEST(StmapExport, IsTheSameFileInFloatAndIn16Bits) {
-    Scene scene = scene_named("hollow", {{"image.width_px", "24"}, {"image.height_px", "16"},
+    Scene scene = catalogue_scene("hollow", {{"image.width_px", "24"}, {"image.height_px", "16"},
                                          {"card.half_width_mm", "70"}});
     const tests::TemporaryFolder folder;
     write_all(folder, make_stmap_files(job_of(scene), "card"));
@@ -203,26 +195,26 @@ TEST(StmapExport, IsTheSameFileInFloatAndIn16Bits) {
 }
 
 TEST(StmapExport, AsksForASurfaceWhereThereAreSeveral) {
-    const Scene scene = scene_named("salvator", {{"robe.relief_resolution", "20"}});
+    const Scene scene = catalogue_scene("salvator", {{"robe.relief_resolution", "20"}});
     const Error error = refusal([&] { stmap_target(scene, ""); });
     EXPECT_EQ(error.code(), Exit::usage);
     EXPECT_THAT(error.what(), HasSubstr("hand, robe"));
     EXPECT_THAT(error.hint(), HasSubstr("--onto"));
     EXPECT_THAT(refusal([&] { stmap_target(scene, "rob"); }).what(), HasSubstr("did you mean 'robe'"));
     EXPECT_EQ(stmap_target(scene, "robe"), "robe");
-    EXPECT_EQ(refusal([] { stmap_target(scene_named("furnace"), ""); }).code(), Exit::bad_data);
+    EXPECT_EQ(refusal([] { stmap_target(catalogue_scene("furnace"), ""); }).code(), Exit::bad_data);
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
 
 TEST(Losses, AreThoseOfTheSceneAtHand) {
-    const Scene plain = scene_named("hollow"), figure = scene_named("salvator", {{"robe.relief_resolution", "20"}});
+    const Scene plain = catalogue_scene("hollow"), figure = catalogue_scene("salvator", {{"robe.relief_resolution", "20"}});
     EXPECT_THAT(losses(plain, ExportFormat::glb), Each(Not(HasSubstr("shadow"))));
     EXPECT_THAT(losses(figure, ExportFormat::glb), testing::Contains(HasSubstr("rule for shadows of glass")));
     EXPECT_THAT(losses(figure, ExportFormat::glb), testing::Contains(HasSubstr("dome of lights")));
     EXPECT_THAT(losses(figure, ExportFormat::obj), testing::Contains(HasSubstr("102 parallel")));
-    EXPECT_THAT(losses(scene_named("tint"), ExportFormat::glb), testing::Contains(HasSubstr("on light at each surface")));
-    EXPECT_THAT(losses(scene_named("hollow", {{"glass.coating", "antireflective"}}), ExportFormat::glb),
+    EXPECT_THAT(losses(catalogue_scene("tint"), ExportFormat::glb), testing::Contains(HasSubstr("on light at each surface")));
+    EXPECT_THAT(losses(catalogue_scene("hollow", {{"glass.coating", "antireflective"}}), ExportFormat::glb),
                 testing::Contains(HasSubstr("antireflective coating of \"orb\"")));
     Scene cropped = plain;
     cropped.camera.crop = Crop{1, 2, 3, 4};
@@ -234,7 +226,7 @@ TEST(Losses, AreThoseOfTheSceneAtHand) {
 }
 
 TEST(Losses, KeepAHostileNameOnOneLine) {
-    Scene scene = scene_named("hollow", {{"glass.coating", "antireflective"}});
+    Scene scene = catalogue_scene("hollow", {{"glass.coating", "antireflective"}});
     scene.objects[0].name = "orb\n- nothing is lost\x1b[2J";
     for (const std::string &loss : losses(scene, ExportFormat::glb))
         EXPECT_EQ(loss.find_first_of("\n\x1b"), std::string::npos) << loss;

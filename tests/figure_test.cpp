@@ -7,7 +7,6 @@
 
 #include <glm/geometric.hpp>
 
-#include "scenes/catalogue/catalogue.h"
 #include "scenes/catalogue/composition.h"
 #include "scenes/error.h"
 #include "scenes/figure/film_camera.h"
@@ -16,19 +15,12 @@
 #include "scenes/figure/relief.h"
 #include "scenes/geometry.h"
 #include "scenes/validate.h"
+#include "tests/catalogue_scene.h"
 
 namespace threefold {
 namespace {
 
 using namespace figure;
-
-Scene made(const std::string &scene, Preset preset, const std::vector<Assignment> &assignments = {}) {
-    const auto scenes = built_in_scenes();
-    const SceneRecipe &recipe = find_scene(scenes, scene);
-    Parameters p(recipe.parameters, preset);
-    for (const Assignment &a : assignments) p.set(a.name, a.value);
-    return recipe.make(p);
-}
 
 const Mesh &mesh_of(const Scene &scene, std::string_view name) {
     return std::get<Mesh>(std::ranges::find(scene.objects, name, &Object::name)->shape);
@@ -74,7 +66,8 @@ TEST(Hand, HoldsTheOrbFromBelowWithFingersInFrontAndThePalmBehind) {
 TEST(Hand, StaysInContactInTheScenesWhereverTheOrbIs) {
     for (const Preset preset : {Preset::text, Preset::published})
         for (const char *shift : {"0", "20"}) {
-            const Scene scene = made("salvator", preset, {{"orb.shift_mm", shift}, {"robe.relief_resolution", "20"}});
+            const Scene scene =
+                catalogue_scene("salvator", {{"orb.shift_mm", shift}, {"robe.relief_resolution", "20"}}, preset);
             const GlassShell &orb = std::get<GlassShell>(scene.objects.front().shape);
             const double gap = distance_to(mesh_of(scene, "hand"), orb.centre_mm) - orb.outer_radius_mm;
             EXPECT_GT(gap, 0);
@@ -137,7 +130,7 @@ TEST(Relief, IsRaisedAlongTheLinesOfSightSoThatThePictureStaysAsDrawn) {
 
 TEST(Relief, HasTheSamePictureUnderBothPresets) {
     for (const Preset preset : {Preset::text, Preset::published}) {
-        const Scene scene = made("salvator", preset, {{"robe.relief_resolution", "20"}});
+        const Scene scene = catalogue_scene("salvator", {{"robe.relief_resolution", "20"}}, preset);
         const Standpoint from{scene.camera.eye_mm, std::tan(scene.camera.horizontal_fov_deg * std::numbers::pi / 360),
                               preset == Preset::text ? -250.0 : -297.5};
         const Mesh &robe = mesh_of(scene, "robe");
@@ -162,25 +155,24 @@ TEST(Figure, ScenesAreMeaningfulUnderBothPresetsPaintedOrInColoursOfIdentity) {
         for (const Preset preset : {Preset::text, Preset::published})
             for (const char *surface : {"painted", "identity"})
                 for (const char *kind : {"hollow", "solid"})
-                    EXPECT_NO_THROW(validate(
-                        made(name, preset,
-                             {{"figure.surface", surface}, {"orb.kind", kind}, {"robe.relief_resolution", "20"}})));
+                    EXPECT_NO_THROW(validate(catalogue_scene(
+                        name, {{"figure.surface", surface}, {"orb.kind", kind}, {"robe.relief_resolution", "20"}},
+                        preset)));
 }
 
 TEST(Figure, RefusesWhatSaysHowToTakeAFileThatIsNotGiven) {
     for (const char *name : {"hand.mesh_x_mm", "robe.mesh_unit_mm", "robe.texture_gamma"}) try {
-            made("salvator", Preset::text, {{"robe.relief_resolution", "9"}, {name, "9"}});
+            catalogue_scene("salvator", {{"robe.relief_resolution", "9"}, {name, "9"}});
             FAIL() << name;
         } catch (const Error &error) {
             EXPECT_NE(std::string(error.what()).find("means nothing without"), std::string::npos) << error.what();
         }
-    EXPECT_NO_THROW(made("salvator", Preset::text, {{"robe.relief_resolution", "9"}, {"hand.mesh_unit_mm", "10"}}))
+    EXPECT_NO_THROW(catalogue_scene("salvator", {{"robe.relief_resolution", "9"}, {"hand.mesh_unit_mm", "10"}}))
         << "its usual value";
 }
 
 TEST(Figure, InColoursOfIdentityEachThingHasItsOwn) {
-    const Scene scene =
-        made("salvator", Preset::text, {{"figure.surface", "identity"}, {"robe.relief_resolution", "9"}});
+    const Scene scene = catalogue_scene("salvator", {{"figure.surface", "identity"}, {"robe.relief_resolution", "9"}});
     EXPECT_TRUE(scene.lights.empty());
     EXPECT_FALSE(scene.environment);
     EXPECT_EQ(std::get<Rgb>(std::get<Emissive>(mesh_of(scene, "hand").surface).radiance), Rgb(1, 0, 0));
@@ -188,8 +180,8 @@ TEST(Figure, InColoursOfIdentityEachThingHasItsOwn) {
 }
 
 TEST(Figure, ARobeThatReachesIntoTheOrbIsRefused) {
-    EXPECT_THROW(made("salvator", Preset::text, {{"orb.radius_mm", "240"}}), Error);
-    EXPECT_NO_THROW(made("salvator", Preset::text, {{"orb.radius_mm", "340"}, {"card.distance_mm", "900"}}));
+    EXPECT_THROW(catalogue_scene("salvator", {{"orb.radius_mm", "240"}}), Error);
+    EXPECT_NO_THROW(catalogue_scene("salvator", {{"orb.radius_mm", "340"}, {"card.distance_mm", "900"}}));
 }
 
 TEST(Lights, OfTheStudySumToItsIrradiances) {

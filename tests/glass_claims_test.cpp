@@ -10,6 +10,7 @@
 #include "exporter/temporary_folder.h"
 #include "scenes/catalogue/catalogue.h"
 #include "scenes/catalogue/white_spots.h"
+#include "tests/catalogue_scene.h"
 #include "tests/quick_request.h"
 #include "verifier/check/check.h"
 #include "verifier/claims/claim.h"
@@ -28,11 +29,6 @@ Parameters parameters_of(std::string_view scene, const std::vector<Assignment> &
     return values;
 }
 
-Scene scene_of(std::string_view scene, const std::vector<Assignment> &assignments = {}) {
-    static const std::vector<SceneRecipe> scenes = built_in_scenes();
-    return find_scene(scenes, scene).make(parameters_of(scene, assignments));
-}
-
 const FlipPoint *flip_of(const std::vector<FlipPoint> &flips, std::string_view parameter) {
     for (const FlipPoint &f : flips)
         if (f.parameter == parameter) return &f;
@@ -46,7 +42,7 @@ std::vector<FlipPoint> flips_of(std::string_view claim, const std::vector<Assign
 }
 
 TEST(OrbLight, SeesUniformSurroundingsAsIfThereWereNoOrb) {
-    const Scene scene = scene_of("furnace", {{"environment.radiance", "0.3"}});
+    const Scene scene = catalogue_scene("furnace", {{"environment.radiance", "0.3"}});
     const OrbInScene orb = orb_of(scene);
     for (const double share : {0.0, 0.4, 0.9, 0.985, 0.999}) {
         const Ray ray{{share * orb.optics.outer_mm, 0, 900}, {0, 0, -1}};
@@ -55,7 +51,7 @@ TEST(OrbLight, SeesUniformSurroundingsAsIfThereWereNoOrb) {
 }
 
 TEST(OrbLight, SendsItsStrongestOrderWhereTheStraightPathGoes) {
-    const Scene scene = scene_of("hollow");
+    const Scene scene = catalogue_scene("hollow");
     const OrbInScene orb = orb_of(scene);
     const Ray ray = camera_ray(scene.camera, {90, 70});
     const auto straight = optics::transmitted_ray(orb.optics, orb.centre_mm, ray);
@@ -68,7 +64,7 @@ TEST(OrbLight, SendsItsStrongestOrderWhereTheStraightPathGoes) {
 }
 
 TEST(OrbMarks, APointIsSeenWhereItsRayGoes) {
-    Camera camera = scene_of("hollow").camera;
+    Camera camera = catalogue_scene("hollow").camera;
     camera.crop = Crop{30, 40, 100, 100};
     const Ray ray = camera_ray(camera, {12.25, 71.5});
     const Vec2 seen = image_of(camera, ray.origin_mm + 777.0 * ray.direction);

@@ -14,6 +14,7 @@
 #include "scenes/error.h"
 #include "scenes/texture.h"
 #include "scenes/validate.h"
+#include "tests/catalogue_scene.h"
 
 namespace threefold {
 namespace {
@@ -33,9 +34,7 @@ std::string error_of(auto action, Exit expected = Exit::bad_data) {
 }
 
 Scene good() {
-    const auto scenes = built_in_scenes();
-    const SceneRecipe &recipe = find_scene(scenes, "hollow");
-    return recipe.make(Parameters(recipe.parameters, Preset::text));
+    return catalogue_scene("hollow");
 }
 
 std::string refused(auto change) {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "exporter/temporary_folder.h"
-#include "scenes/catalogue/catalogue.h"
+#include "tests/catalogue_scene.h"
 #include "verifier/agreement/tiles.h"
 #include "verifier/measure/radiance.h"
 #include "verifier/tolerance/tile_noise.h"
@@ -16,12 +16,7 @@ TEST(TileNoiseInCycles, IsMetWithTheSamplesThatDecide) {
     if (!cycles.present()) GTEST_SKIP() << cycles.title << " is not installed";
     const TemporaryFolder folder;
     RenderJob job;
-    const auto scenes = built_in_scenes();
-    const SceneRecipe &recipe = find_scene(scenes, "hollow");
-    Parameters parameters(recipe.parameters, Preset::text);
-    parameters.set("image.width_px", "96");
-    parameters.set("image.height_px", "96");
-    job.scene = recipe.make(parameters);
+    job.scene = catalogue_scene("hollow", {{"image.width_px", "96"}, {"image.height_px", "96"}});
     job.sampling = Sampling::pixel_centres;
     job.samples_per_pixel = 8;
     job.cut_weight = 1e-5;

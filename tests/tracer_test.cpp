@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "scenes/camera.h"
-#include "scenes/catalogue/catalogue.h"
 #include "scenes/error.h"
 #include "scenes/validate.h"
+#include "tests/catalogue_scene.h"
 #include "verifier/claims/prediction.h"
 #include "verifier/measure/optical_map.h"
 #include "verifier/measure/radiance.h"
@@ -19,11 +19,7 @@ namespace threefold {
 namespace {
 
 Scene scene(std::string_view name, const std::vector<Assignment> &assignments) {
-    const auto scenes = built_in_scenes();
-    const SceneRecipe &recipe = find_scene(scenes, name);
-    Parameters values(recipe.parameters, Preset::text);
-    for (const Assignment &a : assignments) values.set(a.name, a.value);
-    Scene made = recipe.make(values);
+    Scene made = catalogue_scene(name, assignments);
     validate(made);
     return made;
 }

@@ -4,21 +4,17 @@
 #include <gtest/gtest.h>
 
 #include "exporter/temporary_folder.h"
-#include "scenes/catalogue/catalogue.h"
+#include "tests/catalogue_scene.h"
 #include "verifier/studies/trade.h"
 
 namespace threefold {
 namespace {
 
 TEST(TradeOfRenderers, EachMeetsTheToleranceOnASceneOfItsOwn) {
-    const auto scenes = built_in_scenes();
-    const SceneRecipe &recipe = find_scene(scenes, "hollow");
-    Parameters parameters(recipe.parameters, Preset::text);
-    for (const auto &[name, value] : {std::pair{"image.width_px", 20.0}, {"image.height_px", 20.0}, {"orb.wall_mm", 11.0}, {"glass.index", 1.4}})
-        parameters.set(name, value);
     const TemporaryFolder folder;
     TradeRequest request;
-    request.scene = recipe.make(parameters);
+    request.scene = catalogue_scene(
+        "hollow", {{"image.width_px", "20"}, {"image.height_px", "20"}, {"orb.wall_mm", "11"}, {"glass.index", "1.4"}});
     request.witnesses = find_witnesses(witness_names());
     for (const Witness &w : request.witnesses)
         if (!w.present()) GTEST_SKIP() << w.title << " is not installed";
