@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The statistics of the trade study on made-up pictures whose noise and bias are known; the choice; the closed form of
-// a single path against the tracer; the study and the tolerance with our tracer alone, end to end.
+// a single path against the tracer; the study with our tracer alone, end to end.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,27 +8,18 @@
 #include <random>
 
 #include "exporter/temporary_folder.h"
-#include "scenes/catalogue/catalogue.h"
 #include "scenes/error.h"
+#include "tests/catalogue_scene.h"
 #include "verifier/measure/radiance.h"
 #include "verifier/studies/trade.h"
 #include "verifier/studies/trade_choice.h"
 #include "verifier/studies/trade_report.h"
 #include "verifier/tolerance/reference.h"
-#include "verifier/tolerance/tolerance.h"
 
 namespace threefold {
 namespace {
 
 constexpr int side_px = 64;
-
-Scene catalogue_scene(const std::string &name, const std::vector<std::pair<std::string, std::string>> &values) {
-    const auto scenes = built_in_scenes();
-    const SceneRecipe &recipe = find_scene(scenes, name);
-    Parameters parameters(recipe.parameters, Preset::text);
-    for (const auto &[key, value] : values) parameters.set(key, value);
-    return recipe.make(parameters);
-}
 
 /// A picture of radiance about 2 with a known offset and independent normal noise.
 Image noisy(double offset, double sigma, std::uint64_t seed) {
@@ -289,7 +280,7 @@ TEST(ClosedFormPicture, OfASinglePathIsTheTracers) {
     // Hollow (straight, totally reflected at the inner surface) and thick (past the hollow through the glass), tinted.
     for (const char *wall : {"1.3", "20"})
         for (const char *scene_name : {"hollow", "solid"}) {
-            std::vector<std::pair<std::string, std::string>> values{
+            std::vector<Assignment> values{
                 {"image.width_px", "32"}, {"image.height_px", "32"},         {"glass.coating", "antireflective"},
                 {"card.surface", "coordinate"}, {"environment.radiance", "0.3"}, {"glass.interface_transmittance", "0.9"}};
             if (std::string(scene_name) == "hollow") values.emplace_back("orb.wall_mm", wall);
@@ -355,39 +346,6 @@ TEST(Trade, EscapesWhatASceneIsCalled) {
     result.scene = "<script>alert(1)</script>";
     result.tolerances = {1e-2};
     EXPECT_EQ(to_html(result).find("<script"), std::string::npos);
-}
-
-TEST(Tolerance, IsMetByTheTracerAgainstAReferenceItNeverSaw) {
-    const TemporaryFolder folder;
-    const Scene scene = catalogue_scene("hollow", {{"image.width_px", "32"}, {"image.height_px", "32"}, {"orb.wall_mm", "9"}});
-    ToleranceRequest request;
-    request.tolerance = 2e-2;
-    request.folder = folder.path();
-    request.label = "scene";
-    const WithinTolerance within = render_within(find_witnesses({"tracer"}).front(), scene, request);
-    EXPECT_TRUE(within.met);
-    const ReferencePicture reference = make_reference(scene, {.error = 2e-3, .seed = 77, .on_progress = {}});
-    const std::vector<Image> picture{within.rendered.images.front()};
-    const double error = error2_of_mean(picture, reference).root();
-    EXPECT_LE(error, 2e-2);
-    EXPECT_NEAR(error, within.error, 0.3 * within.error); // what it says of itself is true
-    EXPECT_THROW(render_within(find_witnesses({"tracer"}).front(), scene, {.tolerance = 2, .folder = folder.path(), .label = "x", .on_progress = {}}), Error);
-}
-
-TEST(Tolerance, ChoosesSamplesForNoiseAndNeverFewerThanAsked) {
-    const TemporaryFolder folder;
-    const Witness tracer = find_witnesses({"tracer"}).front();
-    RenderJob job;
-    job.scene = catalogue_scene("hollow", {{"image.width_px", "32"}, {"image.height_px", "32"}});
-    job.cut_weight = 1e-3;
-    job.replicates = {{1, {}}, {2, {}}, {3, {}}, {4, {}}};
-    const RenderOptions options{.folder = folder.path(), .label = "e", .tracer = {}, .on_progress = {}};
-    const int n = samples_for_noise(tracer, job, {1e-2}, options);
-    job.samples_per_pixel = n;
-    const Rendered r = render(tracer, job, options);
-    EXPECT_LE(std::sqrt(noise2_of_mean(r.images, mean_radiance(mean(r.images)))), 1e-2);
-    EXPECT_GE(samples_for_noise(tracer, job, {0.5, std::numeric_limits<double>::infinity(), 64}, options), 64);
-    EXPECT_GT(samples_for_noise(tracer, job, {1e-2, 1e-4}, options), n);
 }
 
 } // namespace

@@ -109,6 +109,7 @@ Exit command_render(const Shop &shop, const RenderRequest &request) {
     if (within) {
         metadata["threefold:settings"] = within->description;
         metadata["threefold:relative_rms_error"] = fmt::format("{:.3e}", within->error);
+        metadata["threefold:relative_rms_error_upper"] = fmt::format("{:.3e}", within->error_upper);
     }
     write_image(output, r.images.front(), metadata);
     fs::path preview = output;
@@ -122,13 +123,16 @@ Exit command_render(const Shop &shop, const RenderRequest &request) {
                 "; dropped with the ends of ray trees: {:.1e} of the light on average, {:.1e} in the worst pixel",
                 *r.record.missing_weight_mean, *r.record.missing_weight_greatest);
         if (within)
-            line = fmt::format("{}: {}; relative RMS error {:.2g} ({} {:g}): noise {:.2g}, {} {:.2g}{}; {:.3g} CPU s with "
-                               "the pilot",
-                               witness.title, within->description, within->error,
-                               within->met ? "within" : "NOT within", *request.tolerance, within->noise,
-                               within->systematic_is_bound ? "dropped light at most" : "offset", within->systematic,
-                               within->reference.empty() ? "" : fmt::format(" (against {})", within->reference),
-                               within->cpu_seconds);
+            line = fmt::format(
+                "{}: {}; relative RMS error {:.2g}, at most {:.2g} with 95 % confidence ({} {:g}): noise "
+                "{:.2g}, {} {:.2g}{}; {:.3g} CPU s with the pilot",
+                witness.title, within->description, within->error, within->error_upper,
+                within->met                          ? "within"
+                : within->error > *request.tolerance ? "NOT within"
+                                                     : "not shown to be within",
+                *request.tolerance, within->noise, within->systematic_is_bound ? "dropped light at most" : "offset",
+                within->systematic, within->reference.empty() ? "" : fmt::format(" (against {})", within->reference),
+                within->cpu_seconds);
         say(line);
     }
     fmt::print("{}\n", output.string());

@@ -57,8 +57,9 @@ void add_render_options(CLI::App &command, RenderRequest &request) {
             .add_option(
                 "--tolerance", request.tolerance,
                 "Choose all settings so that the picture's RMS error, over pixels and channels and relative to "
-                "the mean radiance, is at most this: by a pilot on this very scene; noise and offset from our "
-                "tracer's picture together (our tracer: noise, and what it dropped). Exit code 2 if it is not met")
+                "the mean radiance, is at most this with a confidence of 95 %: by a pilot on this very scene; noise "
+                "and offset from our tracer's picture together (our tracer: noise, and what it dropped). Exit code 2 "
+                "if that is not shown")
             ->check(CLI::Range(1e-9, 0.999))
             ->excludes(spp);
     command.add_option("--seed", request.seed, "Seed")->capture_default_str();

@@ -183,6 +183,7 @@ ReferencePicture to_reference(const std::vector<Image> &pictures) {
     reference.variance = spread_of(pictures, reference.mean);
     for (Rgb &pixel : reference.variance.pixels) pixel /= static_cast<double>(pictures.size());
     reference.error = std::sqrt(mean_radiance(reference.variance)) / reference.mean_radiance;
+    reference.pictures = static_cast<int>(pictures.size());
     return reference;
 }
 

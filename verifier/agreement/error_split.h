@@ -32,6 +32,7 @@ struct ReferencePicture {
     Image variance;           ///< of `mean`, pixel by pixel
     double mean_radiance = 0; ///< over pixels and channels
     double error = 0;         ///< relative RMS error of `mean` through its noise
+    int pictures = 1;         ///< that `mean` is of
     std::string kind;         ///< how it was made, for people
     double cpu_seconds = 0;
 };

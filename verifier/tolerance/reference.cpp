@@ -125,13 +125,13 @@ Image single_path_picture(const Scene &scene, int samples, std::uint64_t seed) {
     return image;
 }
 
-constexpr int pictures = 4, pilot_samples = 16, most_samples = 1 << 16;
+constexpr int pilot_samples = 16, most_samples = 1 << 16;
 constexpr std::uint64_t most_refinements = 2; ///< the first aims by the pilot, the second mends what that missed
 
-std::vector<std::uint64_t> seeds_of(std::uint64_t seed, std::uint64_t stage) {
+std::vector<std::uint64_t> seeds_of(const ReferenceRequest &request, std::uint64_t stage) {
     std::vector<std::uint64_t> seeds;
-    for (std::uint64_t k = 0; k < pictures; ++k)
-        seeds.push_back(tracer::mix(seed ^ tracer::mix(0x7ef0000u + 16 * stage + k)));
+    for (std::uint64_t k = 0; k < static_cast<std::uint64_t>(request.pictures); ++k)
+        seeds.push_back(tracer::mix(request.seed ^ tracer::mix(0x7ef0000u + 16 * stage + k)));
     return seeds;
 }
 
@@ -148,11 +148,10 @@ std::optional<int> samples_for(double error, int samples, const ReferenceRequest
 
 } // namespace
 
-std::optional<std::vector<Image>> closed_form_pictures(const Scene &scene, int samples, int count,
-                                                       std::uint64_t seed) {
+std::optional<std::vector<Image>> closed_form_pictures(const Scene &scene, int samples, int count, std::uint64_t seed) {
     if (is_furnace(scene))
-        return std::vector{Image(scene.camera.image_width_px(), scene.camera.image_height_px(),
-                                 scene.environment->radiance)};
+        return std::vector{
+            Image(scene.camera.image_width_px(), scene.camera.image_height_px(), scene.environment->radiance)};
     if (!is_single_path(scene)) return std::nullopt;
     std::vector<Image> all;
     for (int k = 0; k < count; ++k)
@@ -169,9 +168,9 @@ ReferencePicture make_reference(const Scene &scene, const ReferenceRequest &requ
     if (is_single_path(scene)) {
         ReferencePicture r;
         for (int n = pilot_samples;;) {
-            r = to_reference(*closed_form_pictures(scene, n, pictures, tracer::mix(request.seed ^ 0xc105edu)));
+            r = to_reference(*closed_form_pictures(scene, n, request.pictures, tracer::mix(request.seed ^ 0xc105edu)));
             const auto more = n == pilot_samples ? samples_for(r.error, n, request, 0, 0) : std::nullopt;
-            r.kind = fmt::format("closed form of the single path, {} points a pixel", pictures * n);
+            r.kind = fmt::format("closed form of the single path, {} points a pixel", request.pictures * n);
             if (!more) return r;
             n = std::min(*more, 4096);
         }
@@ -186,13 +185,13 @@ ReferencePicture make_reference(const Scene &scene, const ReferenceRequest &requ
     for (std::uint64_t stage = 0; more; ++stage) {
         job.samples_per_pixel = *more;
         job.replicates.clear();
-        for (const std::uint64_t seed : seeds_of(request.seed, stage)) job.replicates.push_back({seed, {0, 0}});
+        for (const std::uint64_t seed : seeds_of(request, stage)) job.replicates.push_back({seed, {0, 0}});
         const TracerOutcome outcome = trace(job, {}, request.on_progress);
         cpu += outcome.cpu_seconds;
         r = to_reference(outcome.images);
         r.cpu_seconds = cpu;
         r.kind = fmt::format("our tracer: {} samples a pixel, double, cut 1e-6 ({:.1e} of the light is dropped)",
-                             pictures * *more, outcome.missing_weight_mean);
+                             request.pictures * *more, outcome.missing_weight_mean);
         more = stage < most_refinements
                    ? samples_for(r.error, *more, request, request.most_cpu_s - cpu, outcome.cpu_seconds / *more)
                    : std::nullopt;

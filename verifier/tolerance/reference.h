@@ -17,6 +17,7 @@ struct ReferenceRequest {
     double most_cpu_s = 300;
     std::uint64_t seed = 1;
     int threads = 0;
+    int pictures = 4; ///< independent, at least two: more tell the noise of few pixels better
     std::function<void(double share)> on_progress; ///< may be empty
 };
 

@@ -9,6 +9,7 @@
 #include "scenes/error.h"
 #include "scenes/validate.h"
 #include "verifier/measure/radiance.h"
+#include "verifier/tolerance/error_bound.h"
 #include "verifier/tolerance/reference.h"
 #include "verifier/tracer/sampler.h"
 
@@ -16,23 +17,35 @@ namespace threefold {
 
 namespace {
 
-constexpr int halves = 2, most_attempts = 5;
+constexpr int halves = 2; ///< of a pilot that only asks for the law of the noise
+constexpr std::uint64_t most_attempts = 5;
+/// Any of the attempts may be the one whose error is understated: their chances add up to 5 %.
+constexpr double significance = 0.05 / most_attempts;
+/// Few pixels tell little of their own noise: more parts do, and cost nothing there.
+constexpr std::size_t few_pixels = 400;
+constexpr std::uint64_t parts_of_few = 8;
+constexpr int least_samples_of_few =
+    16; ///< of a part: what is narrower than a pixel's samples is not seen in their spread
 /// Of the square of the tolerance: the rest is for what a pilot does not know.
 constexpr double share_of_tolerance = 0.8;
 
-std::vector<std::uint64_t> seeds_of(std::uint64_t seed, std::uint64_t stage) {
+std::vector<std::uint64_t> seeds_of(std::uint64_t seed, std::uint64_t stage, std::uint64_t count = halves) {
     std::vector<std::uint64_t> seeds;
-    for (std::uint64_t k = 0; k < halves; ++k) seeds.push_back(tracer::mix(tracer::mix(seed + 97 * stage) + k));
+    for (std::uint64_t k = 0; k < count; ++k) seeds.push_back(tracer::mix(tracer::mix(seed + 97 * stage) + k));
     return seeds;
 }
 
 class Search {
 public:
     Search(const Witness &witness, const Scene &scene, const ToleranceRequest &request)
-        : witness_(witness), scene_(scene), request_(request), greatest_(greatest_radiance(scene)) {}
+        : witness_(witness), scene_(scene), request_(request), greatest_(greatest_radiance(scene)),
+          few_pixels_(static_cast<std::size_t>(scene.camera.image_width_px()) *
+                          static_cast<std::size_t>(scene.camera.image_height_px()) <
+                      few_pixels),
+          parts_(few_pixels_ ? parts_of_few : halves) {}
 
     WithinTolerance run() {
-        const double goal2 = request_.tolerance * request_.tolerance * share_of_tolerance;
+        const double tolerance2 = request_.tolerance * request_.tolerance;
         say(0, "pilot");
         std::vector<Setting> systems = systems_of(witness_, scene_);
         if (witness_.is_tracer()) {
@@ -44,37 +57,44 @@ public:
             require_light();
             Setting only = systems.back();
             if (systems.size() > 1)
-                only.cut_weight = std::clamp(0.3 * request_.tolerance * mean_ / std::max(greatest_, mean_), 1e-12, 1e-2);
+                only.cut_weight =
+                    std::clamp(0.2 * request_.tolerance * mean_ / std::max(greatest_, mean_), 1e-12, 1e-2);
             systems = {only};
         } else {
             say(0.02, "reference");
-            reference_ = make_reference(scene_, {.error = request_.tolerance / 4,
+            reference_ = make_reference(scene_, {.error = request_.tolerance / (few_pixels_ ? 16 : 4),
                                                  .seed = tracer::mix(request_.seed ^ 0x5eedu),
                                                  .threads = request_.threads,
+                                                 .pictures = few_pixels_ ? 8 : 4,
                                                  .on_progress = {}});
             cpu_ += reference_->cpu_seconds;
             mean_ = reference_->mean_radiance;
         }
-        std::size_t system = choose_system(systems, goal2);
+        std::size_t system = choose_system(systems, tolerance2 * share_of_tolerance);
         Setting setting = systems[system];
-        setting.samples = round_up_samples(witness_, law_.samples(halves * std::max(goal2 - bias2_, goal2 / 8)));
+        const double parts = static_cast<double>(parts_);
+        // What of the square the picture's noise may have: less where few pixels carry it, who may err further.
+        const auto room = [&](double systematic2) {
+            const double goal2 = tolerance2 * share_of_tolerance;
+            return std::max(goal2 - systematic2, goal2 / 8) / widening_;
+        };
+        setting.samples = samples_of(law_.samples(parts * room(bias2_)));
         WithinTolerance best;
         for (std::uint64_t attempt = 0; attempt < most_attempts; ++attempt) {
             say(0.3, describe(setting, witness_, scene_));
             WithinTolerance now = attempt_with(setting, attempt);
-            const bool better = attempt == 0 || now.error < best.error;
+            const bool better = attempt == 0 || now.error_upper < best.error_upper;
             const double noise2 = now.noise * now.noise, systematic2 = now.systematic * now.systematic;
             if (better) best = std::move(now);
             if (best.met) break;
-            if (systematic2 > goal2 && noise2 < goal2) {
+            if (systematic2 > tolerance2 * share_of_tolerance && noise2 < tolerance2 * share_of_tolerance) {
                 if (++system >= systems.size()) break; // no setting of this renderer is nearer to the truth
                 setting = {systems[system]};
                 setting.samples = std::max(setting.samples, best.setting.samples);
                 continue;
             }
-            const double room = std::max(goal2 - systematic2, goal2 / 8);
-            setting.samples = round_up_samples(
-                witness_, setting.samples * std::clamp(std::pow(noise2 / room, 1 / law_.rate), 1.3, 64.0));
+            setting.samples = samples_of(setting.samples *
+                                         std::clamp(std::pow(noise2 / room(systematic2), 1 / law_.rate), 1.3, 64.0));
         }
         best.cpu_seconds = cpu_;
         return best;
@@ -90,16 +110,27 @@ private:
             throw Error(Exit::bad_data, "the picture is black: an error relative to its mean radiance has no meaning");
     }
 
+    int samples_of(double samples) const {
+        return round_up_samples(witness_, std::max<double>(samples, few_pixels_ ? least_samples_of_few : 1));
+    }
+
     Rendered take(const Setting &setting, std::uint64_t stage) {
         RenderOptions options;
         options.folder = request_.folder;
         options.label = request_.label;
         options.time_limit = request_.time_limit;
         options.tracer = setting.tracer;
-        Rendered r =
-            render(witness_, job_of(setting, scene_, seeds_of(request_.seed, stage), request_.threads), options);
+        Rendered r = render(witness_, job_of(setting, scene_, seeds_of(request_.seed, stage, parts_), request_.threads),
+                            options);
         cpu_ += r.record.cpu_seconds;
         return r;
+    }
+
+    /// One point of the law: of the relative variance of one part.
+    NoisePoint point_of(const Setting &setting, const std::vector<Image> &pictures) {
+        const PartsNoise noise = noise_of_parts(pictures, mean_);
+        widening_ = std::max(1.0, noise.widening(significance));
+        return {double(setting.samples), static_cast<double>(parts_) * noise.square};
     }
 
     /// The coarsest system whose systematic error leaves room for noise; the law of the noise on the way. That error is
@@ -108,24 +139,25 @@ private:
     std::size_t choose_system(const std::vector<Setting> &systems, double goal2) {
         const int few = pilot_samples(witness_);
         std::vector<NoisePoint> points;
-        const auto pilot = [&](std::size_t system) {
+        const auto pilot_of = [&](std::size_t system, int samples) {
             Setting setting = systems[system];
-            setting.samples = round_up_samples(witness_, few);
-            return take(setting, 100).images;
+            setting.samples = round_up_samples(witness_, samples);
+            return setting;
         };
-        std::vector<Image> coarse = pilot(0);
-        points.push_back({double(round_up_samples(witness_, few)), halves * noise2_of_mean(coarse, mean_)});
+        std::vector<Image> coarse = take(pilot_of(0, few), 100).images;
+        points.push_back(point_of(pilot_of(0, few), coarse));
         std::size_t chosen = 0;
         for (; chosen + 1 < systems.size(); ++chosen) {
-            std::vector<Image> fine = pilot(chosen + 1);
+            std::vector<Image> fine = take(pilot_of(chosen + 1, few), 100).images;
             bias2_ = std::max(0.0, paired_bias2(coarse, fine, mean_).value);
             if (bias2_ <= goal2 / 2) break;
             coarse = std::move(fine);
             bias2_ = 0; // of the last nothing is known
         }
-        Setting more = systems[chosen];
-        more.samples = round_up_samples(witness_, 4 * few);
-        points.push_back({double(more.samples), halves * noise2_of_mean(take(more, 200).images, mean_)});
+        const Setting more = pilot_of(chosen, 4 * few);
+        points.push_back(point_of(more, take(more, 200).images));
+        // Two estimates from few pixels may make any slope: independent samples are the worst that is known then.
+        if (few_pixels_) points.erase(points.begin());
         law_ = fit_noise_law(points);
         return chosen;
     }
@@ -135,20 +167,23 @@ private:
         out.setting = setting;
         out.rendered = take(setting, attempt);
         std::vector<Image> &pictures = out.rendered.images;
-        const double noise2 = noise2_of_mean(pictures, mean_);
-        out.noise = std::sqrt(noise2);
+        const PartsNoise noise = noise_of_parts(pictures, mean_);
+        out.noise = std::sqrt(noise.square);
+        widening_ = std::max(1.0, noise.widening(significance));
         if (reference_) {
             const Square error2 = error2_of_mean(pictures, *reference_);
             out.error = error2.root();
-            out.systematic = std::sqrt(std::max(0.0, error2.value - noise2));
+            out.error_upper = std::sqrt(error2_upper(mean(pictures), *reference_, significance));
+            out.systematic = std::sqrt(std::max(0.0, error2.value - noise.square));
             out.reference = reference_->kind;
         } else {
             out.systematic = out.rendered.record.missing_weight_greatest.value_or(0) * greatest_ / mean_;
             out.systematic_is_bound = true;
             out.error = std::hypot(out.noise, out.systematic);
+            out.error_upper = std::sqrt(noise.upper2(out.systematic, significance));
         }
-        out.met = out.error <= request_.tolerance;
-        out.description = fmt::format("{} pictures of {}", halves, describe(setting, witness_, scene_));
+        out.met = out.error_upper <= request_.tolerance;
+        out.description = fmt::format("{} pictures of {}", parts_, describe(setting, witness_, scene_));
         pictures = {mean(pictures)};
         return out;
     }
@@ -157,6 +192,9 @@ private:
     const Scene &scene_;
     const ToleranceRequest &request_;
     double greatest_, mean_ = 0, bias2_ = 0, cpu_ = 0;
+    bool few_pixels_;
+    std::uint64_t parts_;
+    double widening_ = 1; ///< of the square of the noise, to its bound
     NoiseLaw law_;
     std::optional<ReferencePicture> reference_;
 };
@@ -208,8 +246,7 @@ NoisePilot pilot_noise(const Witness &witness, RenderJob job, int few_samples, c
         pilot.cpu_seconds += r.record.cpu_seconds;
         pilot.mean_radiance = mean_radiance(mean(r.images));
         if (!(pilot.mean_radiance > 0)) return pilot;
-        points.push_back(
-            {double(job.samples_per_pixel), halves * noise2_of_mean(r.images, pilot.mean_radiance)});
+        points.push_back({double(job.samples_per_pixel), halves * noise2_of_mean(r.images, pilot.mean_radiance)});
     }
     pilot.law = fit_noise_law(points);
     return pilot;

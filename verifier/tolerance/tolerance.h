@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// A picture within a tolerance, by a pilot on the very scene: nothing is learnt beforehand, so there is no scene that it
-// was not learnt on. A few samples, twice over, give the law of the noise (variance = factor / samples^rate, with the
-// rate of this renderer's own sampler on this scene); the systematic error is bounded by the weight that our tracer
+// A picture within a tolerance, by a pilot on the very scene: nothing is learnt beforehand, so there is no scene that
+// it was not learnt on. A few samples, twice over, give the law of the noise (variance = factor / samples^rate, with
+// the rate of this renderer's own sampler on this scene); the systematic error is bounded by the weight that our tracer
 // dropped, and measured for other renderers against a picture of our tracer. Samples are chosen, the picture is made
-// from independent halves, and its error is stated by what was measured on itself, not by the law.
+// from independent parts, and its error is stated by what was measured on itself, not by the law: an estimate, and a
+// bound that holds with a confidence of 95 % however many attempts it took (error_bound.h). The bound decides.
 #pragma once
 
 #include <filesystem>
@@ -27,10 +28,11 @@ struct ToleranceRequest {
 };
 
 struct WithinTolerance {
-    Rendered rendered; ///< one picture, the mean of the halves; the record is that of the last render
-    Setting setting;   ///< of one half
+    Rendered rendered; ///< one picture, the mean of the parts; the record is that of the last render
+    Setting setting;   ///< of one part
     std::string description;
-    double error = 0; ///< relative RMS, estimated on this very picture
+    double error = 0;       ///< relative RMS, estimated on this very picture
+    double error_upper = 0; ///< not exceeded, with a confidence of 95 %
     double noise = 0, systematic = 0;
     bool systematic_is_bound = false; ///< else measured against the reference
     std::string reference;            ///< empty where none was needed
@@ -50,7 +52,7 @@ NoisePilot pilot_noise(const Witness &witness, RenderJob job, int few_samples, c
 
 /// What noise the mean picture of a job may have.
 struct NoiseWanted {
-    double relative = 1e-2; ///< RMS over the mean radiance
+    double relative = 1e-2;                                    ///< RMS over the mean radiance
     double absolute = std::numeric_limits<double>::infinity(); ///< RMS, in radiance: the lesser of both counts
     int least_samples = 1;
 };
