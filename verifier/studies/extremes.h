@@ -15,8 +15,9 @@
 //               spread, radiances stored; each times what it does to the landing of this very pixel, and ten roundings
 //               (single precision) times the condition number where the adapter says that it computes in single
 // A point has the worst class of its pixels; of paths that a renderer states to lose now and then, as many are forgiven
-// as chance exceeds once in a thousand pictures. A point without any judged pixel is unresolved. `refused`: by
-// validation, or by the adapter; with the reason.
+// as chance exceeds once in a thousand pictures. A point is unresolved without any judged pixel, and where less than a
+// quarter of those show the card and nothing is wrong: dark pixels alone say little. `refused`: by validation,
+// or by the adapter; with the reason.
 #pragma once
 
 #include <filesystem>
@@ -35,6 +36,7 @@ std::string to_string(Standing standing);
 
 /// Thresholds, as shares of the orb's radius (landing) or of the light.
 inline constexpr double visible_landing = 1e-3, visible_light = 1e-2;
+inline constexpr double least_lit_share = 0.25; ///< of the judged pixels
 inline constexpr double double_floor = 1e-11, float_floor = 1e-5, roundings = 10;
 
 struct ExtremesRequest {
@@ -51,6 +53,7 @@ struct ExtremesRequest {
 struct ExtremeFinding {
     Standing standing = Standing::unresolved;
     int judged = 0, unresolved = 0, wrong = 0, forgiven = 0; ///< pixels
+    int lit = 0; ///< judged pixels that should show the card, or light
     double worst = 0;   ///< greatest error of a judged pixel that is a number, in radii or as a share of the light
     double median = 0;
     double bound = 0;   ///< stated, where the error is nearest to it or farthest beyond it

@@ -131,8 +131,13 @@ ExtremeFinding judge_landing(const Image &image, const Scene &scene, std::span<c
         else if (seen)
             j.error = glm::length((*uv - e.uv) * side_mm) / radius;
         pixels.push_back(j);
+        f.lit += seen;
     }
     conclude(f, pixels, visible_landing, a.lost_paths);
+    if (f.standing != Standing::wrong && f.lit < least_lit_share * f.judged) {
+        f.standing = Standing::unresolved;
+        f.reason = fmt::format("only {} of {} judged pixels show the card", f.lit, f.judged);
+    }
     return f;
 }
 
@@ -167,6 +172,7 @@ ExtremeFinding judge_light(const Image &image, const Scene &scene, const Stated 
             if (a.random_branches) continue;
             pixels.push_back({is_number(pixel) ? std::abs(pixel.g - expected) : std::numeric_limits<double>::infinity(), bound});
         }
+    f.lit = static_cast<int>(image.pixels.size()); // all of it is light
     if (a.random_branches) {
         // One path a sample, lit or lost: only the mean says something, to three standard deviations.
         const double n = static_cast<double>(image.pixels.size());

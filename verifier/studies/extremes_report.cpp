@@ -86,7 +86,7 @@ std::string reach(const ExtremesResult &result, const ExtremeSweepResult &sweep,
 Json to_json(const ExtremeFinding &f) {
     using report::real;
     return {{"standing", to_string(f.standing)},
-            {"pixels", {{"judged", f.judged}, {"unresolved", f.unresolved}, {"wrong", f.wrong}, {"forgiven", f.forgiven}}},
+            {"pixels", {{"judged", f.judged}, {"lit", f.lit}, {"unresolved", f.unresolved}, {"wrong", f.wrong}, {"forgiven", f.forgiven}}},
             {"worst_error", real(f.worst)},
             {"median_error", real(f.median)},
             {"stated_bound", real(f.bound)},
@@ -200,7 +200,7 @@ std::string to_markdown(const ExtremesResult &result, const std::string &picture
         "- **degraded**: visible but stated (e within a), or beyond a but not visible.\n"
         "- **wrong**: visible and beyond a; no number; light of the card where there is none, or none where it is.\n"
         "- **unresolved**: all pixels lie nearer to an edge of the glass or of the card than the stated accuracy: nothing "
-        "was promised there, nothing is judged.\n"
+        "was promised there, nothing is judged; or less than a quarter of the judged ones show the card.\n"
         "- **refused**: in one line, with the limit and the reason, before anything is rendered.\n\n"
         "A point has the worst class of its pixels. The bound a is, for our tracer in double precision, the larger of "
         "{:g} R and {:g} roundings (2^-53) times the problem's condition number: what relative changes of all the scene's "

@@ -76,6 +76,23 @@ Scene moved(Scene s, Vec3 by_mm) {
     return s;
 }
 
+/// A film so wide, and the orb four fifths of the way to its left edge: the pixels about it alone are asked for. In the
+/// middle of a wide film the orb would be less than a pixel, and everything else dark.
+void look_past(Scene &scene, double fov_deg) {
+    Camera &c = scene.camera;
+    const double half_width = std::tan(fov_deg * std::numbers::pi / 360), tangent = 0.8 * half_width;
+    const double secant = std::hypot(1, tangent);
+    c.horizontal_fov_deg = fov_deg;
+    c.target_mm = c.eye_mm + eye_mm * Vec3(tangent / secant, 0, -1 / secant);
+    // Upright the orb is as tall as the crop but for a margin; sideways the film stretches it more.
+    const double half_orb = secant * radius_mm / std::sqrt(eye_mm * eye_mm - radius_mm * radius_mm);
+    const double pixel = 2 * half_orb * 1.16 / side_px;
+    c.width_px = std::max(side_px, 2 * static_cast<int>(std::ceil(half_width / pixel)));
+    c.height_px = side_px;
+    const int middle = static_cast<int>(0.1 * c.width_px);
+    c.crop = Crop{std::clamp(middle - side_px / 2, 0, c.width_px - side_px), 0, side_px, side_px};
+}
+
 struct Value {
     double value;
     bool promised;
@@ -191,6 +208,15 @@ std::vector<ExtremeSweep> view_sweeps() {
                             Scene scene = before_card(shell(wall));
                             if (fov < 10) scene.camera.target_mm = {0.6 * radius_mm, 0.2 * radius_mm, 0};
                             scene.camera.horizontal_fov_deg = fov;
+                            if (fov > 60) look_past(scene, fov);
+                            return scene;
+                        }));
+    all.push_back(sweep("target", "The point that the camera looks at, nearer and farther on one line", "(eye - target) / R",
+                        {{1e-9, true}, {1e-6, true}, {1e-3, true}, {1, true}, {1e3, true}, {1e6, true}, {1e9, true}},
+                        [](double d) {
+                            Scene scene = before_card(shell(wall));
+                            const Vec3 aim(0.05, 0.03, -1);
+                            scene.camera.target_mm = scene.camera.eye_mm + d * radius_mm * aim;
                             return scene;
                         }));
     all.push_back(sweep("backdrop", "The backdrop comes to the orb, and touches it", "gap / R",
