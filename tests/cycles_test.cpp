@@ -195,6 +195,15 @@ TEST(CyclesScript, refuses_what_it_cannot_say_exactly) {
     EXPECT_THAT(refusal(job), HasSubstr("beyond Blender's lenses"));
 }
 
+TEST(CyclesScript, refuses_a_film_smaller_than_blenders) {
+    RenderJob job = shell_before_card();
+    job.scene.camera.width_px = 3;
+    job.scene.camera.height_px = 64;
+    EXPECT_THAT(refusal(job), HasSubstr("3 x 64 pixels"));
+    job.scene.camera.width_px = 4;
+    EXPECT_EQ(refusal(job), "");
+}
+
 TEST(Icosphere, stays_as_near_to_the_sphere_as_it_says) {
     for (int level = 0; level <= 5; ++level) {
         const Icosphere sphere = make_icosphere(level);

@@ -33,8 +33,8 @@ constexpr double lost_at_edges = 5e-5;
 /// Glass farther from the origin than this many of its radii is drawn out of place (measured: right to 10, by 4 pixels
 /// wrong at 100).
 constexpr double farthest_glass_radii = 10;
-/// The camera's near plane stands at 1e-4 units, and the script says so. Measured: an eye 1e-3 units from the glass errs by
-/// 1e-4 of the radius, at 1e-4 units it looks from inside.
+/// The camera's near plane stands at 1e-4 units, and the script says so. Measured: an eye 1e-3 units from the glass
+/// errs by 1e-4 of the radius, at 1e-4 units it looks from inside.
 constexpr double nearest_eye_in_units = 0.99e-3;
 constexpr int deepest_path = 256; ///< bounces: DEEPEST of the script
 
@@ -76,6 +76,12 @@ Json write_lights(const std::vector<Directional> &lights) {
 
 /// The film is the crop alone, a window that is shifted off the axis.
 Json write_camera(const Camera &camera, const Frame &frame, const ToBlender &to_blender) {
+    constexpr int least_film_px = 4, greatest_film_px = 65536;
+    const auto [narrow, wide] = std::minmax({camera.image_width_px(), camera.image_height_px()});
+    if (narrow < least_film_px || wide > greatest_film_px)
+        refuse_for_cycles(fmt::format("a picture of {} x {} pixels: Blender's films have {} to {} on a side",
+                                      camera.image_width_px(), camera.image_height_px(), least_film_px,
+                                      greatest_film_px));
     const auto [right, up, forward] = camera_frame(camera);
     Json json = {{"eye", to_json(to_blender.point(camera.eye_mm))},
                  {"right", to_json(ToBlender::direction(right))},
@@ -229,9 +235,10 @@ CyclesScene describe_for_cycles(const RenderJob &job) {
     for (const Sphere &orb : outer_spheres(scene)) {
         const double gap_mm = std::abs(glm::distance(scene.camera.eye_mm, orb.centre_mm) - orb.radius_mm);
         if (gap_mm < nearest_eye_in_units * unit_mm)
-            refuse_for_cycles(fmt::format("the eye is {:.3g} mm from the glass; Blender's near plane wants at least {:.3g} mm",
-                                          gap_mm, nearest_eye_in_units * unit_mm),
-                              "move the eye away, or use the tracer");
+            refuse_for_cycles(
+                fmt::format("the eye is {:.3g} mm from the glass; Blender's near plane wants at least {:.3g} mm",
+                            gap_mm, nearest_eye_in_units * unit_mm),
+                "move the eye away, or use the tracer");
     }
 
     CyclesScene made;
@@ -246,20 +253,21 @@ CyclesScene describe_for_cycles(const RenderJob &job) {
                                       made.accuracy.trapped_light, deepest_path, most_trapped_light),
                           "show more than the outermost rim, or use the tracer");
     if (const double grazing = grazing_share(scene, objects.surface_mm); grazing > most_grazing)
-        refuse_for_cycles(fmt::format("{:.3g} of the picture's rays graze an orb or its hollow, passing the edge nearer than "
-                                      "1e-4 of the radius and four times what the mesh strays, and go astray; at most {:g} "
-                                      "may be",
-                                      grazing, most_grazing),
-                          "show more than the outermost rim, or use the tracer");
+        refuse_for_cycles(
+            fmt::format("{:.3g} of the picture's rays graze an orb or its hollow, passing the edge nearer than "
+                        "1e-4 of the radius and four times what the mesh strays, and go astray; at most {:g} "
+                        "may be",
+                        grazing, most_grazing),
+            "show more than the outermost rim, or use the tracer");
     made.data = {{"name", scene.name},
-                          {"unit_mm", unit_mm},
-                          {"origin_mm", to_json(frame.origin_mm)},
-                          {"camera", write_camera(scene.camera, frame, to_blender)},
-                          {"sampling", write_sampling(job, required)},
-                          {"environment", to_json(scene.environment ? scene.environment->radiance : Rgb(0))},
-                          {"lights", required.direct_light ? write_lights(lights_on_diffuse(scene)) : Json::array()},
-                          {"objects", objects.list},
-                          {"replicates", write_replicates(job, made)}};
+                 {"unit_mm", unit_mm},
+                 {"origin_mm", to_json(frame.origin_mm)},
+                 {"camera", write_camera(scene.camera, frame, to_blender)},
+                 {"sampling", write_sampling(job, required)},
+                 {"environment", to_json(scene.environment ? scene.environment->radiance : Rgb(0))},
+                 {"lights", required.direct_light ? write_lights(lights_on_diffuse(scene)) : Json::array()},
+                 {"objects", objects.list},
+                 {"replicates", write_replicates(job, made)}};
 
     made.accuracy.random_branches = is_random(required);
     made.accuracy.radiance_step = greatest_radiance(scene) * float_epsilon / 2;
