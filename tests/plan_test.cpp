@@ -102,5 +102,31 @@ TEST(SolidVsHollow, ReadsTheSlopeWhereTheCardEnds) {
     EXPECT_EQ(far.verdict, Verdict::holds);
 }
 
+TEST(Plan, ClaimsAreDecidedFarFromTheStudysValues) {
+    const TemporaryFolder folder;
+    struct Far {
+        const char *claim;
+        std::vector<Assignment> values;
+        Verdict verdict;
+    };
+    for (const Far &far : {
+             // Weak glass; an orb that fills a fifth of the eye's view; walls far beyond the flip point.
+             Far{"rim-reads-wall", {{"glass.index", "1.05"}}, Verdict::holds},
+             {"rim-reads-wall",
+              {{"orb.radius_mm", "200"}, {"glass.index", "1.8"}, {"orb.wall_mm", "10"}},
+              Verdict::holds},
+             {"rim-reads-wall", {{"orb.wall_mm", "45"}}, Verdict::fails},
+             {"rim-reads-wall", {{"orb.wall_mm", "30"}, {"glass.index", "1.2"}}, Verdict::fails},
+             // The line bends beside the orb, however large that is, and is read where it is seen beyond its bend.
+             {"three-lines", {{"orb.radius_mm", "75"}}, Verdict::holds},
+             {"three-lines", {{"orb.radius_mm", "90"}}, Verdict::holds},
+             {"three-lines", {{"orb.wall_mm", "0.5"}}, Verdict::holds},
+         }) {
+        const ClaimResult result = check(request(folder, {far.claim}, far.values)).result.claims.back();
+        EXPECT_EQ(result.verdict, far.verdict) << far.claim << " " << far.values.front().name << " "
+                                               << far.values.front().value;
+    }
+}
+
 } // namespace
 } // namespace threefold

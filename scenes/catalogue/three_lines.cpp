@@ -201,7 +201,7 @@ std::vector<Object> three_lines_objects(const Parameters &p) {
 std::vector<Object> bent_lines_objects(const Parameters &p) {
     const Vec3 along = line_frame(p).along, middle(0, 0, lines_depth(p));
     const double half_length = p.number("lines.half_length_mm"), half_width = p.number("lines.half_width_mm");
-    const Vec3 bend = middle + p.number("lines.bend_mm") * along;
+    const Vec3 bend = middle + (p.number("orb.radius_mm") + p.number("lines.bend_beyond_mm")) * along;
     const std::vector<Vec3> way{middle - half_length * along, bend, bend + Vec3(half_length, 0, 0)};
     if (is_probe(p)) {
         const double reach = soft_reach * half_width;

@@ -16,8 +16,8 @@ Specs three_lines_image_parameters();
 /// The card, before it the lines. With `lines.paint=probe` the lines alone, soft and each dark in one colour (upper
 /// red, middle green, lower blue): their centres can be told apart and read to a small part of a pixel.
 std::vector<Object> three_lines_objects(const Parameters &p);
-/// The same with the middle line bent: at lines.bend_mm from the axis, to the upper right, it goes on to the right. The
-/// probe is the bent line alone.
+/// The same with the middle line bent: lines.bend_beyond_mm beyond the orb's edge, as far from the axis to the upper
+/// right, it goes on to the right. The probe is the bent line alone.
 std::vector<Object> bent_lines_objects(const Parameters &p);
 
 /// Of the probe, from 0 to 1: 1 on a line's centre, 1/2 at its half-width, 0 from `soft_reach` half-widths on.

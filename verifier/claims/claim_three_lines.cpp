@@ -219,11 +219,11 @@ Experiment crossing_experiment(const ClaimContext &context, const std::string &k
     const Camera camera = e.scene.camera;
     for (const NamedLine &named : asked.lines)
         for (const double impact : {asked.view.circles.inside_mm, asked.view.circles.outside_mm})
-            if (shows_bend(asked.view, camera, named.line, impact))
+            if (arm_on(asked.view, camera, named.line, impact) == Arm::both)
                 throw Error(
                     Exit::bad_data,
                     fmt::format("the {} bends where its place is read, on the circle of {:.4g} mm", named.name, impact),
-                    "lines.bend_mm must lie farther out, or lines.half_width_mm be smaller");
+                    "lines.bend_beyond_mm must be greater, or lines.half_width_mm smaller");
     e.predict = [asked, camera](const Accuracy &a) { return predict(asked, camera, a); };
     return e;
 }
@@ -357,10 +357,13 @@ std::vector<std::string> notes(const ClaimContext &context) {
                                     kind, std::abs(jump / asked.lines.front().line.apart_mm), std::abs(jump),
                                     asked.arcmin(camera, jump), std::abs(jump) / asked.picture_px_mm));
     }
+    const LinesAsked bent = asked_of(lines_probe(context, "", "", "three-lines-bent", {}));
     notes.push_back(fmt::format(
-        "A jump is read between the circle at {:g} of the radius within which rays go through ({:g} for the bent line) "
-        "and the circle at {:g} of the orb's radius. Nearer to the boundary it changes ever more steeply.",
-        inside_share, inside_share_bent, outside_share));
+        "A jump is read between the circle at {:g} of the radius within which rays go through ({:g} for the bent line, "
+        "which only so near to the boundary is seen beyond its bend) and the circle at {:g} of the orb's radius. "
+        "Nearer "
+        "to the boundary it changes ever more steeply.",
+        inside_share, bent.view.circles.inside_mm / bent.view.orb.clear_radius_mm(), outside_share));
     for (const Flip &flip : flips_of(context))
         if (!flip.value)
             notes.push_back(fmt::format("{} ({}) has no flip point at these parameters.", flip.parameter, flip.scene));

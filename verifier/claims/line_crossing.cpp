@@ -69,8 +69,7 @@ std::optional<double> mm_over_a_pixel(const LinesView &view, const Camera &camer
     return std::sqrt(squares);
 }
 
-bool shows_bend(const LinesView &view, const Camera &camera, const SoftLine &line, double impact_mm) {
-    if (!line.bend_mm) return false;
+Arm arm_on(const LinesView &view, const Camera &camera, const SoftLine &line, double impact_mm) {
     const double reach = soft_reach * line.half_width_mm;
     int beyond = 0, before = 0;
     for (const double off : {-reach, 0.0, reach})
@@ -78,7 +77,8 @@ bool shows_bend(const LinesView &view, const Camera &camera, const SoftLine &lin
             const auto landing = landing_of(view, *ray_past(camera, view.orb.centre_mm, impact_mm, *azimuth));
             (is_beyond_bend(view, line, *landing) ? beyond : before) += 1;
         }
-    return beyond > 0 && before > 0;
+    if (beyond > 0) return before > 0 ? Arm::both : Arm::beyond_bend;
+    return before > 0 ? Arm::before_bend : Arm::none;
 }
 
 std::optional<double> azimuth_of(const LinesView &view, const Camera &camera, const SoftLine &line, double impact_mm,

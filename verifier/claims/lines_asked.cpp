@@ -22,7 +22,7 @@ double LinesAsked::arcmin(const Camera &camera, double jump_mm) const {
 
 LinesAsked asked_of(const Experiment &e) {
     LinesAsked asked;
-    const bool bent = e.record.parameters.contains("lines.bend_mm");
+    const bool bent = e.record.parameters.contains("lines.bend_beyond_mm");
     const OrbInScene orb = orb_of(e.scene);
     const double angle = number_of(e, "lines.angle_deg") * std::numbers::pi / 180;
     const double depth = number_of(e, "lines.ahead_mm") - number_of(e, "card.distance_mm");
@@ -30,14 +30,19 @@ LinesAsked asked_of(const Experiment &e) {
     asked.view = {orb,
                   {{0, 0, depth}, {-std::sin(angle), std::cos(angle), 0}, {0, 0, 1}},
                   {std::cos(angle), std::sin(angle), 0},
-                  {(bent ? inside_share_bent : inside_share) * orb.clear_radius_mm(),
-                   outside_share * orb.optics.outer_mm, angle}};
+                  {inside_share * orb.clear_radius_mm(), outside_share * orb.optics.outer_mm, angle}};
     if (bent) {
-        const double bend = number_of(e, "lines.bend_mm");
+        const double bend = orb.optics.outer_mm + number_of(e, "lines.bend_beyond_mm");
         // Before its bend, where the line is straight.
         asked.view.circles.outside_mm =
             std::clamp((orb.optics.outer_mm + bend) / 2, orb.optics.outer_mm, asked.view.circles.outside_mm);
         asked.lines = {{"bent line", 1, {0, half_width, bend}}};
+        const auto found = std::ranges::find_if(inside_shares_bent, [&](double share) {
+            const Arm arm = arm_on(asked.view, e.scene.camera, asked.lines.front().line, share * orb.clear_radius_mm());
+            return arm == Arm::beyond_bend;
+        });
+        asked.view.circles.inside_mm =
+            (found == inside_shares_bent.end() ? inside_shares_bent.front() : *found) * orb.clear_radius_mm();
     } else {
         const double apart = number_of(e, "lines.shift_mm") * std::cos(angle);
         asked.lines = {{"upper line", 0, {apart, half_width, {}}},

@@ -9,7 +9,11 @@
 
 namespace threefold::optics {
 
-std::optional<Ray> transmitted_ray(const Orb<double> &orb, Vec3 centre_mm, const Ray &ray) {
+namespace {
+
+/// By `turn_of` an impact; nothing where that is.
+template <class TurnOf>
+std::optional<Ray> sent_on(const Orb<double> &orb, Vec3 centre_mm, const Ray &ray, TurnOf turn_of) {
     const Vec3 d = glm::normalize(ray.direction);
     const Vec3 from_centre = ray.origin_mm - centre_mm;
     const double along = glm::dot(from_centre, d);
@@ -18,7 +22,7 @@ std::optional<Ray> transmitted_ray(const Orb<double> &orb, Vec3 centre_mm, const
     const Vec3 foot = from_centre - along * d;
     const double b = glm::length(foot);
     const Impact<double> impact = impact_at(orb, b);
-    const std::optional<double> turn = deflection(orb, impact);
+    const std::optional<double> turn = turn_of(impact);
     if (!turn) return std::nullopt;
 
     // The orb turns the whole line about its centre: foot point and direction rotate together.
@@ -27,6 +31,19 @@ std::optional<Ray> transmitted_ray(const Orb<double> &orb, Vec3 centre_mm, const
     const Vec3 direction = cosine * d - sine * outwards;
     const Vec3 new_foot = b * (cosine * outwards + sine * d);
     return Ray{centre_mm + new_foot + outer_chords(orb, impact).air_mm * direction, direction};
+}
+
+} // namespace
+
+std::optional<Ray> transmitted_ray(const Orb<double> &orb, Vec3 centre_mm, const Ray &ray) {
+    return sent_on(orb, centre_mm, ray, [&](const Impact<double> &impact) { return deflection(orb, impact); });
+}
+
+std::optional<Ray> coated_ray(const Orb<double> &orb, Vec3 centre_mm, const Ray &ray) {
+    return sent_on(orb, centre_mm, ray, [&](const Impact<double> &impact) {
+        const auto through = deflection(orb, impact);
+        return through ? through : rim_deflection(orb, impact);
+    });
 }
 
 std::optional<Vec3> landing_on_plane(const Ray &ray, Vec3 point_mm, Vec3 normal) {
