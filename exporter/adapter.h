@@ -27,7 +27,8 @@ struct Adapter {
     std::string (*parse_version)(std::string_view output);
     /// The line of a log that best explains why the program failed; empty if none does.
     std::string (*explain_failure)(std::string_view log);
-    /// Where glass splits rays, or many lights fall on a surface: samples for one of a renderer that follows every branch, for about the same noise.
+    /// Where glass splits rays, or many lights fall on a surface: samples for one of a renderer that follows every
+    /// branch, for about the same noise.
     int sample_factor = 1;
     /// The line after which the program does nothing but render: reading and building are over. May be null.
     bool (*rendering_begins)(std::string_view line) = nullptr;

@@ -39,11 +39,11 @@ struct RenderJob {
     int samples_per_pixel = 16; ///< for `box`, per replicate; a renderer that samples on a grid rounds up to a square
     std::vector<Replicate> replicates{Replicate{}};
     double surface_tolerance_mm = 0; ///< greatest distance of a tessellated glass surface; 0: usual_surface_share
-    double cut_weight = 1e-6;           ///< a branch of the ray tree may be dropped below this weight, never above
+    double cut_weight = 1e-6;        ///< a branch of the ray tree may be dropped below this weight, never above
     /// For studies: a path ends after so many surfaces, where a renderer counts them. Empty: as deep as it can. What it
     /// takes away is in no `Accuracy`.
     std::optional<int> most_bounces{};
-    int threads = 0;                    ///< 0: all cores
+    int threads = 0; ///< 0: all cores
     Slip slip{};
 };
 

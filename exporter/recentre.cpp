@@ -35,9 +35,9 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// A clearance of orbs and meshes below this share of the radius is a contact that was meant (and rounded), not a gap to
-/// be kept open: a spot of a thousandth of the radius at most is then not told from the glass. A flat backdrop shows it
-/// in the middle of the picture, and an eye so near sees nothing else: for these every gap counts.
+/// A clearance of orbs and meshes below this share of the radius is a contact that was meant (and rounded), not a gap
+/// to be kept open: a spot of a thousandth of the radius at most is then not told from the glass. A flat backdrop shows
+/// it in the middle of the picture, and an eye so near sees nothing else: for these every gap counts.
 constexpr double contact = 1e-6;
 
 /// Zero when the triangle cuts through the sphere.
@@ -116,7 +116,8 @@ Frame render_frame(const Scene &scene) {
         });
     frame.smallest_gap_mm = smallest_gap(scene, spheres);
     frame.smallest_sphere_mm = infinite;
-    for (const Sphere &sphere : spheres) frame.smallest_sphere_mm = std::min(frame.smallest_sphere_mm, sphere.radius_mm);
+    for (const Sphere &sphere : spheres)
+        frame.smallest_sphere_mm = std::min(frame.smallest_sphere_mm, sphere.radius_mm);
     return frame;
 }
 

@@ -6,9 +6,9 @@
 
 #include "exporter/temporary_folder.h"
 #include "scenes/catalogue/catalogue.h"
+#include "tests/quick_request.h"
 #include "verifier/check/check.h"
 #include "verifier/report/html.h"
-#include "tests/quick_request.h"
 
 namespace threefold {
 namespace {

@@ -31,10 +31,9 @@ using testing::HasSubstr;
 namespace fs = std::filesystem;
 
 Scene hollow(const std::string &wall_mm, const std::string &index = "1.51714", const std::string &size_px = "64") {
-    return catalogue_scene("hollow", {{"orb.wall_mm", wall_mm},
-                                      {"glass.index", index},
-                                      {"image.width_px", size_px},
-                                      {"image.height_px", size_px}});
+    return catalogue_scene(
+        "hollow",
+        {{"orb.wall_mm", wall_mm}, {"glass.index", index}, {"image.width_px", size_px}, {"image.height_px", size_px}});
 }
 
 ExportJob job_of(const Scene &scene, int samples) {

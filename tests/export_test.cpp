@@ -126,7 +126,9 @@ TEST(ObjExport, KeepsAHostileNameInOneWord) {
 }
 
 TEST(ObjExport, RefusesTheProbe) {
-    const Error error = refusal([] { make_obj_files(job_of(catalogue_scene("hollow", {{"card.surface", "coordinate"}}))); });
+    const Error error = refusal([] {
+        make_obj_files(job_of(catalogue_scene("hollow", {{"card.surface", "coordinate"}})));
+    });
     EXPECT_EQ(error.code(), Exit::bad_data);
     EXPECT_THAT(error.what(), HasSubstr("coordinate card \"card\""));
     EXPECT_THAT(error.hint(), HasSubstr("stmap"));
@@ -177,8 +179,8 @@ TEST(StmapExport, SaysWhereTheClosedFormLands) {
 }
 
 TEST(StmapExport, IsTheSameFileInFloatAndIn16Bits) {
-    Scene scene = catalogue_scene("hollow", {{"image.width_px", "24"}, {"image.height_px", "16"},
-                                         {"card.half_width_mm", "70"}});
+    Scene scene =
+        catalogue_scene("hollow", {{"image.width_px", "24"}, {"image.height_px", "16"}, {"card.half_width_mm", "70"}});
     const tests::TemporaryFolder folder;
     write_all(folder, make_stmap_files(job_of(scene), "card"));
     const Image exr = read_image(folder / "hollow-stmap.exr"), png = read_image(folder / "hollow-stmap.png");
@@ -208,12 +210,14 @@ TEST(StmapExport, AsksForASurfaceWhereThereAreSeveral) {
 // ---------------------------------------------------------------------------------------------------------------------
 
 TEST(Losses, AreThoseOfTheSceneAtHand) {
-    const Scene plain = catalogue_scene("hollow"), figure = catalogue_scene("salvator", {{"robe.relief_resolution", "20"}});
+    const Scene plain = catalogue_scene("hollow"),
+                figure = catalogue_scene("salvator", {{"robe.relief_resolution", "20"}});
     EXPECT_THAT(losses(plain, ExportFormat::glb), Each(Not(HasSubstr("shadow"))));
     EXPECT_THAT(losses(figure, ExportFormat::glb), testing::Contains(HasSubstr("rule for shadows of glass")));
     EXPECT_THAT(losses(figure, ExportFormat::glb), testing::Contains(HasSubstr("dome of lights")));
     EXPECT_THAT(losses(figure, ExportFormat::obj), testing::Contains(HasSubstr("102 parallel")));
-    EXPECT_THAT(losses(catalogue_scene("tint"), ExportFormat::glb), testing::Contains(HasSubstr("on light at each surface")));
+    EXPECT_THAT(losses(catalogue_scene("tint"), ExportFormat::glb),
+                testing::Contains(HasSubstr("on light at each surface")));
     EXPECT_THAT(losses(catalogue_scene("hollow", {{"glass.coating", "antireflective"}}), ExportFormat::glb),
                 testing::Contains(HasSubstr("antireflective coating of \"orb\"")));
     Scene cropped = plain;
@@ -235,8 +239,13 @@ TEST(Losses, KeepAHostileNameOnOneLine) {
 // ---------------------------------------------------------------------------------------------------------------------
 
 TEST(Provenance, KeepsEveryValueOnItsLine) {
-    const std::string text = to_text({"x\nexport_command: rm", "text", {{"robe.texture", "a\nb"}, {"hand.mesh", ""}},
-                                      "hash", "1", "threefold export x", "threefold render x"});
+    const std::string text = to_text({"x\nexport_command: rm",
+                                      "text",
+                                      {{"robe.texture", "a\nb"}, {"hand.mesh", ""}},
+                                      "hash",
+                                      "1",
+                                      "threefold export x",
+                                      "threefold render x"});
     EXPECT_THAT(text, HasSubstr("scene        x export_command: rm\n"));
     EXPECT_THAT(text, HasSubstr("  robe.texture = a b\n"));
     EXPECT_THAT(text, HasSubstr("  hand.mesh = (generated)\n"));
@@ -247,11 +256,16 @@ TEST(FreshFolder, IsMadeWithItsFilesOrNotAtAll) {
     write_fresh_folder(folder / "a/b/", {{"one.txt", "1"}, {"two.txt", "2"}});
     EXPECT_EQ(read_file(folder / "a/b/two.txt"), "2");
     // The second cannot be written: its name is longer than names can be.
-    EXPECT_EQ(refusal([&] { write_fresh_folder(folder / "c/d", {{"one", "1"}, {std::string(300, 'x'), "2"}}); }).code(),
+    EXPECT_EQ(refusal([&] {
+                  write_fresh_folder(folder / "c/d", {{"one", "1"}, {std::string(300, 'x'), "2"}});
+              }).code(),
               Exit::input_output);
     EXPECT_FALSE(fs::exists(folder / "c"));
     fs::create_directory(folder / "e");
-    EXPECT_EQ(refusal([&] { write_fresh_folder(folder / "e", {{"one", "1"}, {"../two", "2"}}); }).code(), Exit::internal);
+    EXPECT_EQ(refusal([&] {
+                  write_fresh_folder(folder / "e", {{"one", "1"}, {"../two", "2"}});
+              }).code(),
+              Exit::internal);
     EXPECT_TRUE(fs::is_empty(folder / "e")) << "it was there before, and stays";
 }
 

@@ -391,11 +391,14 @@ double turn_by_tracer(double outer, double inner, double b) {
 }
 
 RC_GTEST_PROP(MetamorphicProperty, ASplitWallTurnsTheTracersRayAlike, ()) {
-    const auto uniform = [](double low, double high) { return low + (high - low) * *rc::gen::inRange(0, 1'000'001) / 1e6; };
-    const double wall = 68 * std::pow(10, uniform(-9, -0.3)), middle = 68 - wall * uniform(0.05, 0.95), inner = 68 - wall;
+    const auto uniform = [](double low, double high) {
+        return low + (high - low) * *rc::gen::inRange(0, 1'000'001) / 1e6;
+    };
+    const double wall = 68 * std::pow(10, uniform(-9, -0.3)), middle = 68 - wall * uniform(0.05, 0.95),
+                 inner = 68 - wall;
     const double b = inner * uniform(0, 0.99);
-    RC_ASSERT(std::abs(turn_by_tracer(68, inner, b) - turn_by_tracer(68, middle, b) - turn_by_tracer(middle, inner, b)) <
-              1e-13);
+    RC_ASSERT(std::abs(turn_by_tracer(68, inner, b) - turn_by_tracer(68, middle, b) -
+                       turn_by_tracer(middle, inner, b)) < 1e-13);
 }
 
 RC_GTEST_PROP(MetamorphicProperty, AnOffsetOfAnySizeLeavesThePicture, ()) {

@@ -123,8 +123,8 @@ TEST(Plan, ClaimsAreDecidedFarFromTheStudysValues) {
              {"three-lines", {{"orb.wall_mm", "0.5"}}, Verdict::holds},
          }) {
         const ClaimResult result = check(request(folder, {far.claim}, far.values)).result.claims.back();
-        EXPECT_EQ(result.verdict, far.verdict) << far.claim << " " << far.values.front().name << " "
-                                               << far.values.front().value;
+        EXPECT_EQ(result.verdict, far.verdict)
+            << far.claim << " " << far.values.front().name << " " << far.values.front().value;
     }
 }
 

@@ -17,8 +17,8 @@
 
 #include "exporter/run.h"
 #include "scenes/camera.h"
-#include "scenes/light.h"
 #include "scenes/error.h"
+#include "scenes/light.h"
 
 using namespace threefold;
 namespace fs = std::filesystem;

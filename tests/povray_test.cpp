@@ -82,7 +82,9 @@ TEST(RenderFrame, stands_at_the_first_glass_and_finds_the_smallest_gap) {
     scene.objects.back().shape = GlassBall{.centre_mm = {0, 0, -132 - 1e-9}, .glass = {}}; // touches
     EXPECT_LT(render_frame(scene).smallest_gap_mm, 1e-8); // a backdrop that touches is a gap
     scene.objects.front().shape = Mesh{.vertices_mm = {{-150, -150, -200}, {150, -150, -200}, {0, 300, -200}},
-                                       .triangles = {{0, 1, 2}}, .uv = {}, .surface = Emissive{}};
+                                       .triangles = {{0, 1, 2}},
+                                       .uv = {},
+                                       .surface = Emissive{}};
     EXPECT_EQ(render_frame(scene).smallest_gap_mm, 68); // a hand may
     scene.camera.eye_mm = {0, 0, -132 + 68 + 1e-6};
     EXPECT_NEAR(render_frame(scene).smallest_gap_mm, 1e-6, 2e-9); // an eye may not

@@ -7,9 +7,9 @@
 #include "exporter/temporary_folder.h"
 #include "scenes/catalogue/catalogue.h"
 #include "scenes/error.h"
+#include "tests/quick_request.h"
 #include "verifier/studies/power.h"
 #include "verifier/studies/power_report.h"
-#include "tests/quick_request.h"
 
 namespace threefold {
 namespace {

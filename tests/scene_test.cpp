@@ -33,9 +33,7 @@ std::string error_of(auto action, Exit expected = Exit::bad_data) {
     return "";
 }
 
-Scene good() {
-    return catalogue_scene("hollow");
-}
+Scene good() { return catalogue_scene("hollow"); }
 
 std::string refused(auto change) {
     Scene s = good();

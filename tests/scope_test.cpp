@@ -129,8 +129,8 @@ TEST(Uniaxial, AlongTheSightLineTheRayWalksOffByTheKnownAngle) {
     // The wave goes straight on through the middle, at the angle to the axis where walk-off is greatest: tan = e/o for
     // the wave normal. The ray leaves the sight line by it, over a chord of 2 cos(walk-off).
     const double angle = std::atan(e / o);
-    const auto out = optics::extraordinary_ray(1, {o, e, {std::sin(angle), 0, -std::cos(angle)}}, Vec3(0),
-                                               {{0, 0, 10}, {0, 0, -1}});
+    const auto out =
+        optics::extraordinary_ray(1, {o, e, {std::sin(angle), 0, -std::cos(angle)}}, Vec3(0), {{0, 0, 10}, {0, 0, -1}});
     ASSERT_TRUE(out);
     EXPECT_NEAR(std::abs(out->origin_mm.x), std::sin(2 * walk_off), 1e-9);
     EXPECT_NEAR(out->origin_mm.z, -std::cos(2 * walk_off), 1e-9);
@@ -239,9 +239,10 @@ TEST(Scope, FollowsItsSettingsAndTheScenesParameters) {
     none.absorption_per_mm = none.strain_nm_per_cm = none.pupil_mm = none.light_deg = 0;
     for (const char *claim : {"solid-vs-hollow", "tint", "soft-light", "three-lines", "white-spots"})
         for (const ScopeNumber &n : scope_of(claim, none))
-            for (const Effect effect : {Effect::dispersion, Effect::absorption, Effect::birefringence, Effect::light_size,
-                                        Effect::pupil})
-                EXPECT_LT(n.bounds.of(effect).value, 1e-6 * n.margin) << claim << ": " << n.quantity << ", " << to_string(effect);
+            for (const Effect effect :
+                 {Effect::dispersion, Effect::absorption, Effect::birefringence, Effect::light_size, Effect::pupil})
+                EXPECT_LT(n.bounds.of(effect).value, 1e-6 * n.margin)
+                    << claim << ": " << n.quantity << ", " << to_string(effect);
 
     ScopeSettings flint;
     flint.abbe_number = 32.1; // half of 64.2: twice the spread
@@ -329,9 +330,7 @@ TEST(Scope, TheStudyNamesWhatIsRequiredInEveryForm) {
     EXPECT_TRUE(json["claims"][1]["required"].empty());
 }
 
-TEST(Scope, AParameterThatNoSceneHasIsRefused) {
-    EXPECT_THROW(studied({"tint"}, true, {{"orb.wal_mm", "2"}}), Error);
-}
+TEST(Scope, AParameterThatNoSceneHasIsRefused) { EXPECT_THROW(studied({"tint"}, true, {{"orb.wal_mm", "2"}}), Error); }
 
 TEST(Scope, CheckSaysThatAVerdictStandsWithinItsModelOnly) {
     const TemporaryFolder folder;

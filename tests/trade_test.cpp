@@ -58,8 +58,7 @@ TEST(ErrorSplit, SeesNoBiasWhereThereIsNone) {
     constexpr int repetitions = 40;
     for (int k = 0; k < repetitions; ++k) {
         const auto seed = static_cast<std::uint64_t>(1000 * k);
-        const ErrorSplit split =
-            split_error(runs_of(5, 0, 0.2, seed), to_reference(runs_of(4, 0, 0.1, seed + 500)));
+        const ErrorSplit split = split_error(runs_of(5, 0, 0.2, seed), to_reference(runs_of(4, 0, 0.1, seed + 500)));
         sum += split.bias2.value;
         negative += split.bias2.value < 0 ? 1 : 0;
         EXPECT_LT(std::abs(split.bias2.value), 5 * split.bias2.standard_error);
@@ -178,7 +177,8 @@ TEST(ErrorSplit, HasNoMeaningForBlackPictures) {
 }
 
 TEST(NoiseLaw, IsReadFromPoints) {
-    const std::vector<NoisePoint> points{{4, 3 * std::pow(4, -1.4)}, {16, 3 * std::pow(16, -1.4)}, {64, 3 * std::pow(64, -1.4)}};
+    const std::vector<NoisePoint> points{
+        {4, 3 * std::pow(4, -1.4)}, {16, 3 * std::pow(16, -1.4)}, {64, 3 * std::pow(64, -1.4)}};
     const NoiseLaw law = fit_noise_law(points);
     EXPECT_NEAR(law.rate, 1.4, 1e-12);
     EXPECT_NEAR(law.factor, 3, 1e-12);
@@ -280,9 +280,12 @@ TEST(ClosedFormPicture, OfASinglePathIsTheTracers) {
     // Hollow (straight, totally reflected at the inner surface) and thick (past the hollow through the glass), tinted.
     for (const char *wall : {"1.3", "20"})
         for (const char *scene_name : {"hollow", "solid"}) {
-            std::vector<Assignment> values{
-                {"image.width_px", "32"}, {"image.height_px", "32"},         {"glass.coating", "antireflective"},
-                {"card.surface", "coordinate"}, {"environment.radiance", "0.3"}, {"glass.interface_transmittance", "0.9"}};
+            std::vector<Assignment> values{{"image.width_px", "32"},
+                                           {"image.height_px", "32"},
+                                           {"glass.coating", "antireflective"},
+                                           {"card.surface", "coordinate"},
+                                           {"environment.radiance", "0.3"},
+                                           {"glass.interface_transmittance", "0.9"}};
             if (std::string(scene_name) == "hollow") values.emplace_back("orb.wall_mm", wall);
             const Scene scene = catalogue_scene(scene_name, values);
             const auto pictures = closed_form_pictures(scene, 256, 4, 1);
@@ -300,17 +303,19 @@ TEST(ClosedFormPicture, OfASinglePathIsTheTracers) {
 
 TEST(ClosedFormPicture, IsNotClaimedWhereRaysBranch) {
     EXPECT_FALSE(closed_form_pictures(catalogue_scene("hollow", {}), 1, 2, 1));
-    EXPECT_EQ(closed_form_pictures(catalogue_scene("furnace", {{"image.width_px", "8"}, {"image.height_px", "8"}}), 1, 1, 1)
-                  ->front()
-                  .at(3, 3)
-                  .g,
-              1);
+    EXPECT_EQ(
+        closed_form_pictures(catalogue_scene("furnace", {{"image.width_px", "8"}, {"image.height_px", "8"}}), 1, 1, 1)
+            ->front()
+            .at(3, 3)
+            .g,
+        1);
 }
 
 TEST(Trade, OfTheTracerAloneNamesASettingThatMeetsTheTolerance) {
     const TemporaryFolder folder;
     TradeRequest request;
-    request.scene = catalogue_scene("solid", {{"image.width_px", "32"}, {"image.height_px", "32"}, {"glass.index", "1.7"}});
+    request.scene =
+        catalogue_scene("solid", {{"image.width_px", "32"}, {"image.height_px", "32"}, {"glass.index", "1.7"}});
     request.witnesses = find_witnesses({"tracer"});
     request.tolerances = {3e-2};
     request.quick = true;

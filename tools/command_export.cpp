@@ -69,9 +69,8 @@ Provenance provenance_of(const Shop &shop, const ExportRequest &request, ExportF
     if (format == ExportFormat::blender || format == ExportFormat::povray || format == ExportFormat::mitsuba)
         options += fmt::format(" --spp {} --seed {}", request.samples_per_pixel, request.seed);
     if (!request.onto.empty()) options += " --onto " + shell_quoted(request.onto);
-    provenance.export_command =
-        fmt::format("{} export {} --to {}{} -o FOLDER", shell_quoted(shop.program), scene_words(request.scene),
-                    request.to, options);
+    provenance.export_command = fmt::format("{} export {} --to {}{} -o FOLDER", shell_quoted(shop.program),
+                                            scene_words(request.scene), request.to, options);
     provenance.render_command = render_command(shop, request, format);
     return provenance;
 }

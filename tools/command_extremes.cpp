@@ -38,7 +38,8 @@ Exit command_extremes(const Shop &shop, const ExtremesCommand &command) {
     if (command.json) write_result(*command.json, json);
     if (command.json != "-") {
         fmt::print("{}", to_text(result));
-        fmt::print("\nmap: {}\n", std::filesystem::absolute(command.folder / "extremes.svg").lexically_normal().string());
+        fmt::print("\nmap: {}\n",
+                   std::filesystem::absolute(command.folder / "extremes.svg").lexically_normal().string());
     }
     return result.faults().empty() ? Exit::holds : Exit::fails;
 }

@@ -28,7 +28,9 @@ bool sets_size(const SceneRequest &scene) {
 /// The same shape in at most so many pixels a side.
 std::string smaller_size(const Scene &scene, int most_px) {
     const double longest = std::max(scene.camera.width_px, scene.camera.height_px);
-    const auto scaled = [&](int px) { return std::max(1, static_cast<int>(std::lround(px * std::min(1.0, most_px / longest)))); };
+    const auto scaled = [&](int px) {
+        return std::max(1, static_cast<int>(std::lround(px * std::min(1.0, most_px / longest))));
+    };
     return fmt::format("{}x{}", scaled(scene.camera.width_px), scaled(scene.camera.height_px));
 }
 
@@ -48,14 +50,15 @@ RunCost run_ourselves(const SceneRequest &scene, const Setting &setting, std::ui
     Witness tracer;
     tracer.name = "tracer";
     for (const std::string &option : render_options(setting, tracer)) child.arguments.push_back(option);
-    child.arguments.insert(child.arguments.end(), {"--seed", fmt::format("{}", seed), "--threads", fmt::format("{}", threads),
-                                                   "-q", "-o", (folder / "process.exr").string()});
+    child.arguments.insert(child.arguments.end(),
+                           {"--seed", fmt::format("{}", seed), "--threads", fmt::format("{}", threads), "-q", "-o",
+                            (folder / "process.exr").string()});
     child.log = folder / "process.log";
     child.time_limit = time_limit;
     const ChildResult r = run_child(child);
     if (r.end != ChildResult::End::exited || r.exit_code != 0)
-        throw Error(Exit::input_output, fmt::format("this program as a process of its own: {}; log: {}", r.describe(),
-                                                    child.log.string()));
+        throw Error(Exit::input_output,
+                    fmt::format("this program as a process of its own: {}; log: {}", r.describe(), child.log.string()));
     return {r.cpu_seconds, r.cpu_seconds, r.seconds, r.peak_memory_mb};
 }
 

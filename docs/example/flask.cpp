@@ -57,8 +57,8 @@ double seen_radius_mm(const OrbInScene &orb, const Quad &card, const Camera &cam
         for (int column = 0; column < camera.image_width_px(); ++column) {
             const Ray ray = film.ray(pixel_sample(camera, column, row));
             const double b = impact_parameter(ray, orb.centre_mm);
-            count += b < axis_share * R ||
-                     (b < edge_share * R && shows_hollow(orb, card, ray, landing(column, row, ray)));
+            count +=
+                b < axis_share * R || (b < edge_share * R && shows_hollow(orb, card, ray, landing(column, row, ray)));
         }
     const double tangent = std::sqrt(count / std::numbers::pi) * film.pixel();
     return eye_mm * std::sin(std::atan(tangent));
@@ -69,11 +69,12 @@ Claim hollow_looks_wider() {
     claim.name = "hollow-looks-wider";
     claim.statement = "The hollow of a thick-walled flask looks as many times wider as the index of its glass.";
     claim.experiments = [](const ClaimContext &context) {
-        // The probe: a card that says where each ray landed, seen through glass without reflections (the ideal coating).
-        Experiment e = context.experiment(
-            "hollow", "what is seen through a thick-walled flask", "flask", {},
-            {assign("card.surface", "coordinate"), assign("glass.coating", "antireflective"),
-             assign("glass.interface_transmittance", 1.0), assign("orb.shift_mm", 0.0)});
+        // The probe: a card that says where each ray landed, seen through glass without reflections (the ideal
+        // coating).
+        Experiment e =
+            context.experiment("hollow", "what is seen through a thick-walled flask", "flask", {},
+                               {assign("card.surface", "coordinate"), assign("glass.coating", "antireflective"),
+                                assign("glass.interface_transmittance", 1.0), assign("orb.shift_mm", 0.0)});
         e.sampling = Sampling::pixel_centres;
         e.samples_per_pixel = 1;
         e.shift_replicates = true; // each of the eight pictures looks through other points of the pixels
@@ -106,9 +107,11 @@ Claim hollow_looks_wider() {
         e.measure = [=](const Image &image, const Camera &camera) {
             double ratio = std::numeric_limits<double>::quiet_NaN();
             if (readable)
-                ratio = seen_radius_mm(orb, card, camera, [&](int column, int row, const Ray &) {
-                            return landing_point(card, image.at(column, row));
-                        }) / r;
+                ratio = seen_radius_mm(orb, card, camera,
+                                       [&](int column, int row, const Ray &) {
+                                           return landing_point(card, image.at(column, row));
+                                       }) /
+                        r;
             return std::vector<Reading>{{"hollow seen over hollow", ratio},
                                         {"the hollow looks wider than it is", ratio}};
         };

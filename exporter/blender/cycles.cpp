@@ -12,7 +12,8 @@ namespace threefold {
 Exported compile_cycles(const RenderJob &job) {
     CyclesScene scene = describe_for_cycles(job);
     Exported exported;
-    exported.files.push_back({"scene.py", fmt::format("{}\n\n# ---- The scene\n\n{}\nmain(SCENE)\n", cycles_prelude(), to_python("SCENE", scene.data))});
+    exported.files.push_back({"scene.py", fmt::format("{}\n\n# ---- The scene\n\n{}\nmain(SCENE)\n", cycles_prelude(),
+                                                      to_python("SCENE", scene.data))});
     for (ExportedFile &file : scene.files) exported.files.push_back(std::move(file));
     // Settings of the user's own and scripts in files have no say. The exit code goes before the script, or a failing
     // script ends with 0.

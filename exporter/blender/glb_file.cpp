@@ -94,11 +94,11 @@ std::vector<ExportedFile> make_glb_file(const ExportJob &job, const InstalledRen
     run_in_blender(blender, {folder.path(), "build.py", {}, "threefold wrote glTF", job.time_limit});
     return {{file, read_file(folder.path() / file)},
             {"README.txt",
-             fmt::format("{}\nWritten by the glTF exporter of Blender {}. Metres, +y up; the point ({}, {}, {}) mm of the "
-                         "scene is the origin.\nEmission and light are in the scene's own units, as "
-                         "KHR_materials_emissive_strength and KHR_lights_punctual.\n",
-                         to_text(job.provenance), blender.version, frame.origin_mm.x, frame.origin_mm.y,
-                         frame.origin_mm.z)}};
+             fmt::format(
+                 "{}\nWritten by the glTF exporter of Blender {}. Metres, +y up; the point ({}, {}, {}) mm of the "
+                 "scene is the origin.\nEmission and light are in the scene's own units, as "
+                 "KHR_materials_emissive_strength and KHR_lights_punctual.\n",
+                 to_text(job.provenance), blender.version, frame.origin_mm.x, frame.origin_mm.y, frame.origin_mm.z)}};
 }
 
 } // namespace threefold

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A scene as binary glTF 2.0, written by Blender's own exporter: metres, +y up, the first orb's centre (else the camera's
-// target) at the origin; glass by KHR_materials_transmission, _ior and _volume, lights by KHR_lights_punctual.
+// A scene as binary glTF 2.0, written by Blender's own exporter: metres, +y up, the first orb's centre (else the
+// camera's target) at the origin; glass by KHR_materials_transmission, _ior and _volume, lights by KHR_lights_punctual.
 #pragma once
 
 #include <vector>

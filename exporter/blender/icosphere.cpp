@@ -8,8 +8,8 @@
 #include <numbers>
 #include <unordered_map>
 
-#include <glm/geometric.hpp>
 #include <glm/ext/matrix_transform.hpp>
+#include <glm/geometric.hpp>
 
 namespace threefold {
 

@@ -61,7 +61,8 @@ std::string ExportJob::stem() const {
     std::ranges::replace_if(
         stem,
         [](char c) {
-            return !((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-');
+            return !((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+                     c == '-');
         },
         '_');
     return stem.empty() ? "scene" : stem.front() == '-' ? "_" + stem.substr(1) : stem;
@@ -72,11 +73,11 @@ void require_fresh_folder(const fs::path &folder) {
     const fs::path there = nearest_existing(folder);
     std::error_code error;
     if (!fs::is_directory(there, error))
-        throw Error(Exit::input_output, fmt::format("cannot export to {}: {} is not a folder", folder.string(),
-                                                    there.string()));
+        throw Error(Exit::input_output,
+                    fmt::format("cannot export to {}: {} is not a folder", folder.string(), there.string()));
     const auto throw_system = [&](int number) {
-        throw Error(Exit::input_output, fmt::format("cannot export to {}: {}: {}", folder.string(), there.string(),
-                                                    std::strerror(number)));
+        throw Error(Exit::input_output,
+                    fmt::format("cannot export to {}: {}: {}", folder.string(), there.string(), std::strerror(number)));
     };
     if (::access(there.c_str(), W_OK | X_OK) != 0) throw_system(errno);
     if (!fs::exists(folder, error)) return;

@@ -95,7 +95,8 @@ public:
         bool emits = false, reflects = false;
         for (const Object &object : scene_.objects)
             if (const Surface *surface = surface_of(object.shape))
-                std::visit(overloaded{[&](const Diffuse &) { reflects = true; }, [&](const Emissive &) { emits = true; },
+                std::visit(overloaded{[&](const Diffuse &) { reflects = true; },
+                                      [&](const Emissive &) { emits = true; },
                                       [&](const CoordinateCard &) { emits = true; }},
                            *surface);
         if (emits && (reflects || has_glass()))

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a format cannot say of a scene: a list for people, in the order of weight. An empty one says that nothing is lost.
+// What a format cannot say of a scene: a list for people, in the order of weight. An empty one says that nothing is
+// lost.
 #pragma once
 
 #include <string>

@@ -16,8 +16,8 @@ namespace {
 constexpr double smallest_gap_in_units = 1e-2;
 // Beyond 1e7 it sees nothing (MAX_DISTANCE). Lights stand at three times the extent.
 constexpr double usual_extent_in_units = 1e5, greatest_extent_in_units = 1e6;
-// It takes the square of half a chord as radius^2 - distance^2 + (distance along the ray)^2. Measured: a sphere of 9.8e-6
-// of the extent is right, one of 1e-6 is not.
+// It takes the square of half a chord as radius^2 - distance^2 + (distance along the ray)^2. Measured: a sphere
+// of 9.8e-6 of the extent is right, one of 1e-6 is not.
 constexpr double smallest_sphere = 9.7e-6;
 
 double power_of_ten(int exponent) { return std::stod(fmt::format("1e{}", exponent)); }
@@ -45,15 +45,17 @@ Space choose_space(const Scene &scene) {
     int exponent = static_cast<int>(std::floor(std::log10(usual_extent_in_units / frame.extent_mm)));
     if (frame.extent_mm * power_of_ten(exponent) > usual_extent_in_units) --exponent;
     if (frame.smallest_sphere_mm < smallest_sphere * frame.extent_mm)
-        refuse(fmt::format("a glass surface of radius {:.6g} mm is lost in a scene that reaches to {:.6g} mm; it must be at "
-                           "least {:.2g} of that",
-                           frame.smallest_sphere_mm, frame.extent_mm, smallest_sphere),
+        refuse(fmt::format(
+                   "a glass surface of radius {:.6g} mm is lost in a scene that reaches to {:.6g} mm; it must be at "
+                   "least {:.2g} of that",
+                   frame.smallest_sphere_mm, frame.extent_mm, smallest_sphere),
                "bring the camera and the background nearer, or use the tracer");
     const auto fits = [&](int e) { return frame.smallest_gap_mm * power_of_ten(e) >= smallest_gap_in_units; };
     if (!fits(exponent) && frame.extent_mm * power_of_ten(exponent + 1) <= greatest_extent_in_units) ++exponent;
     if (!fits(exponent))
-        refuse(fmt::format("the smallest wall or gap of glass, {:.6g} mm, is less than {:.1g} of the scene's extent, {:.6g} mm",
-                           frame.smallest_gap_mm, smallest_gap_in_units / greatest_extent_in_units, frame.extent_mm),
+        refuse(fmt::format(
+                   "the smallest wall or gap of glass, {:.6g} mm, is less than {:.1g} of the scene's extent, {:.6g} mm",
+                   frame.smallest_gap_mm, smallest_gap_in_units / greatest_extent_in_units, frame.extent_mm),
                "bring the camera and the background nearer, make the gap wider, or use the tracer");
     const double units_per_mm = power_of_ten(exponent);
     return {frame.origin_mm, units_per_mm, frame.extent_mm * units_per_mm, frame.smallest_sphere_mm};

@@ -27,7 +27,7 @@ std::string quoted(std::string_view text);
 struct Space {
     Vec3 origin_mm{0};
     double units_per_mm = 1;
-    double extent = 0; ///< of the scene about the origin, in units
+    double extent = 0;             ///< of the scene about the origin, in units
     double smallest_sphere_mm = 0; ///< of glass; infinite without
 
     Vec3 point(const Vec3 &mm) const { return (mm - origin_mm) * units_per_mm; }

@@ -80,8 +80,8 @@ SceneRecipe three_lines_hollow_scene() {
 SceneRecipe three_lines_bent_scene() {
     const Specs bent{
         orb_kind(),
-        number_parameter("lines.bend_beyond_mm", "where the middle line bends, beyond the orb's edge to the upper right",
-                         4, 12, 1e-9, 1e9),
+        number_parameter("lines.bend_beyond_mm",
+                         "where the middle line bends, beyond the orb's edge to the upper right", 4, 12, 1e-9, 1e9),
         number_parameter("image.centre_mm", "the parallel view's centre, to the right of the axis and above it", 39, 39,
                          -1e9, 1e9),
         number_parameter("image.width_mm", "what the parallel view spans across the picture", 70, 70, 1e-9, 1e9)};

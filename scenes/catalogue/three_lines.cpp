@@ -154,11 +154,11 @@ Specs three_lines_orb_parameters(bool hollow) {
     }
     for (ParameterSpec &s : specs = join({specs, glass_parameters()}))
         if (s.name == "glass.index") s.published = 1.6;
-    return join(
-        {specs,
-         {both("eye.distance_mm", "eye to orb centre", 900, tiny_mm, huge_mm),
-          both("criterion.acuity_arcmin", "the least break, in minutes of arc, that counts as noticeable", 1, 1e-6, 1e4)},
-         environment_parameters(1)});
+    return join({specs,
+                 {both("eye.distance_mm", "eye to orb centre", 900, tiny_mm, huge_mm),
+                  both("criterion.acuity_arcmin", "the least break, in minutes of arc, that counts as noticeable", 1,
+                       1e-6, 1e4)},
+                 environment_parameters(1)});
 }
 
 Specs three_lines_parameters(double half_length_mm) {

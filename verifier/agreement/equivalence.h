@@ -18,8 +18,8 @@ Verdict all_of(Verdict a, Verdict b);
 
 /// A number is judged wrongly no more often than this: the level of each one-sided test.
 inline constexpr double significance = 0.05;
-/// Where a first look leaves a number undecided it is looked at once more, with more replicates. The two looks share the
-/// level (Bonferroni), so that a second one buys no error.
+/// Where a first look leaves a number undecided it is looked at once more, with more replicates. The two looks share
+/// the level (Bonferroni), so that a second one buys no error.
 inline constexpr double first_look = 0.04, second_look = 0.01;
 static_assert(first_look + second_look <= significance);
 

@@ -59,8 +59,9 @@ struct TileComparison {
 /// Something measured or predicted, drawn on a picture. Image positions in pixels, row 0 on top.
 struct Mark {
     enum class Kind { line, arrow, circle, cross } kind = Kind::line;
-    Vec2 from_px{0}, to_px{0}; ///< ends of a line or arrow (its head at `to_px`); centre of a circle or cross is `from_px`
-    double radius_px = 0;      ///< of a circle
+    Vec2 from_px{0},
+        to_px{0};         ///< ends of a line or arrow (its head at `to_px`); centre of a circle or cross is `from_px`
+    double radius_px = 0; ///< of a circle
     enum class Meaning { expected, measured } meaning = Meaning::measured;
     std::string label; ///< may be empty; one label a group of marks is enough
 };
@@ -79,8 +80,8 @@ struct FlipPoint {
     std::string parameter; ///< as --set takes it, "glass.index"
     std::string unit;      ///< of the value; empty: a plain number
     double value = 0;
-    double here = 0;                ///< the parameter's value in this run
-    std::string meaning;            ///< "a solid orb inverts this plane only above it"
+    double here = 0;                    ///< the parameter's value in this run
+    std::string meaning;                ///< "a solid orb inverts this plane only above it"
     std::vector<std::string> bracket{}; ///< names of the experiments rendered just below and just above it
 };
 
@@ -133,7 +134,7 @@ struct RunResult {
     std::string threefold_version;
     std::string started; ///< UTC, ISO 8601
     std::string command; ///< what repeats this run
-    std::string preset; ///< "text", "published", or "both": then every claim is there twice
+    std::string preset;  ///< "text", "published", or "both": then every claim is there twice
     bool quick = false;
     std::map<std::string, std::string> assignments;            ///< --set
     std::vector<std::pair<std::string, std::string>> versions; ///< libraries and renderers

@@ -107,9 +107,8 @@ Claim claim_folds() {
         return flips;
     };
     claim.scope = [](const ClaimContext &context, const ScopeSettings &settings) {
-        return std::vector{
-            break_scope(context, settings, "greatest break of the four aimed folds", {}, aimed_folds),
-            break_scope(context, settings, "break of the leftmost fold", {}, {leftmost_fold})};
+        return std::vector{break_scope(context, settings, "greatest break of the four aimed folds", {}, aimed_folds),
+                           break_scope(context, settings, "break of the leftmost fold", {}, {leftmost_fold})};
     };
     claim.mutant = Fault::wall_doubled;
     return claim;

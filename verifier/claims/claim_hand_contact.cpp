@@ -116,7 +116,8 @@ std::vector<Experiment> bracket_experiments(const ClaimContext &context, const H
         if (!flip.drop_mm) continue;
         for (const auto &[label, drop] : bracket_of(*flip.drop_mm)) {
             Experiment e = experiment(context, fmt::format("{}-{}", flip.name, label),
-                                      fmt::format("the hand moved {:.4g} mm down, just {} where it {}", drop, label, flip.threshold_mm > 0 ? "loses the orb" : "enters the orb"),
+                                      fmt::format("the hand moved {:.4g} mm down, just {} where it {}", drop, label,
+                                                  flip.threshold_mm > 0 ? "loses the orb" : "enters the orb"),
                                       {assign("hand.drop_mm", drop)});
             const Relation side = hold.clearance_at(drop) < flip.threshold_mm ? Relation::below : Relation::above;
             e.predict = [side, threshold = flip.threshold_mm](const Accuracy &) {

@@ -4,8 +4,8 @@
 
 #include "scenes/camera.h"
 #include "scenes/catalogue/composition.h"
-#include "verifier/claims/prediction.h"
 #include "verifier/claims/picture_scope.h"
+#include "verifier/claims/prediction.h"
 #include "verifier/claims/whole_picture.h"
 
 namespace threefold {

@@ -306,8 +306,8 @@ Spot source_moved(Spot spot, Vec2 by_mm) {
 EffectBounds highlight_bounds(const Spot &spot, const ScopeSettings &settings, double source_mm, bool of_light,
                               const std::function<double(const Spot &, const LightModel &)> &number) {
     const auto by_model = [&](const LightModel &model) { return number(spot, model); };
-    const IndexBounds index = by_index(spot.orb.optics.index, settings,
-                                       [&](double n) { return number(with_index(spot, n), {}); });
+    const IndexBounds index =
+        by_index(spot.orb.optics.index, settings, [&](double n) { return number(with_index(spot, n), {}); });
     const Bound polarisation = of_light ? by_polarisation(by_model) : directions_know_no_polarisation();
     const Bound birefringence =
         of_light ? with_exchange(index.birefringence, settings, 2 * spot.orb.optics.wall_mm, polarisation.value)

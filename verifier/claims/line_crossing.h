@@ -46,8 +46,8 @@ std::optional<double> azimuth_of(const LinesView &view, const Camera &camera, co
 std::optional<double> mm_over_a_pixel(const LinesView &view, const Camera &camera, const SoftLine &line,
                                       double impact_mm);
 
-/// On which of a bent line's arms does it, with all its soft width, meet the circle? Where on both, what is read there is
-/// no place of one.
+/// On which of a bent line's arms does it, with all its soft width, meet the circle? Where on both, what is read there
+/// is no place of one.
 enum class Arm { none, before_bend, beyond_bend, both };
 Arm arm_on(const LinesView &view, const Camera &camera, const SoftLine &line, double impact_mm);
 

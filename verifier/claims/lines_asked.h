@@ -11,10 +11,10 @@
 
 namespace threefold {
 
-inline constexpr double inside_share = 0.9;       ///< of the clear radius: the inner circle
+inline constexpr double inside_share = 0.9; ///< of the clear radius: the inner circle
 /// Nearer to the boundary for the bent line: only there it is seen beyond its bend, the first of these at which it is.
 inline constexpr std::array inside_shares_bent{0.95, 0.96, 0.97, 0.98, 0.985, 0.99, 0.9925, 0.995};
-inline constexpr double outside_share = 1.05;     ///< of the outer radius: the outer circle
+inline constexpr double outside_share = 1.05; ///< of the outer radius: the outer circle
 
 struct NamedLine {
     std::string name;

@@ -43,9 +43,7 @@ struct View {
                     static_cast<std::size_t>(column)];
     }
     /// Tiles that may differ.
-    std::size_t spare() const {
-        return static_cast<std::size_t>((1 - needed_share) * columns() * rows() + 1e-9);
-    }
+    std::size_t spare() const { return static_cast<std::size_t>((1 - needed_share) * columns() * rows() + 1e-9); }
 };
 
 View view_of(const Experiment &e) {
@@ -127,7 +125,8 @@ Bound caustics_of(const View &v) {
             nearest = std::min(nearest, p.depth_mm);
             reflectance = std::max(reflectance, p.reflectance);
         }
-    if (!(power > 0) || !(nearest < infinity)) return Bound::none("no light meets the orb, or nothing in the picture is lit");
+    if (!(power > 0) || !(nearest < infinity))
+        return Bound::none("no light meets the orb, or nothing in the picture is lit");
     const double tile_mm = nearest * 2 * film_half_width(v.scene.camera) / v.scene.camera.width_px * v.tile_px;
     const double spread = 2 * power / (tile_mm * tile_mm * static_cast<double>(v.spare() + 1));
     return {reflectance / std::numbers::pi * spread,
@@ -182,9 +181,10 @@ Bound interreflection_of(const View &v) {
     const double value = worst_tile(v, [&](int column, int row) {
         return v.at(column, row).reflectance * hidden[v.tile_of(column, row)] * v.brightest * again;
     });
-    return {value, fmt::format("albedo times form factor: the sky is hidden from up to {:.2g} of the half space (tile "
-                               "centres), by things no brighter than {:.3g}, reflecting at most {:.2g}, all reflections",
-                               greatest, v.brightest, reflectance)};
+    return {value,
+            fmt::format("albedo times form factor: the sky is hidden from up to {:.2g} of the half space (tile "
+                        "centres), by things no brighter than {:.3g}, reflecting at most {:.2g}, all reflections",
+                        greatest, v.brightest, reflectance)};
 }
 
 /// The same view in half its pixels.
@@ -226,7 +226,9 @@ std::vector<ScopeNumber> picture_scope(const Experiment &e, const ScopeSettings 
         return PictureChange{half, std::move(instead), as_mean, std::max(1, e.tile_px / 2), e.tiles_needed_share};
     };
     const double index = v.orb.optics.index, strain = optics::strain_index_difference(settings.strain_nm_per_cm);
-    const auto at = [&](double nm) { return with_index(half, optics::index_at_wavelength(index, settings.abbe_number, nm)); };
+    const auto at = [&](double nm) {
+        return with_index(half, optics::index_at_wavelength(index, settings.abbe_number, nm));
+    };
     std::vector<Scene> pinholes;
     const double focus = glm::length(v.orb.centre_mm - e.scene.camera.eye_mm);
     for (const Vec2 &aside : disc_points(settings.pupil_mm))
@@ -238,28 +240,32 @@ std::vector<ScopeNumber> picture_scope(const Experiment &e, const ScopeSettings 
     const std::string brightest = fmt::format("nothing that the orb shows is brighter than {:.3g}, the brightest thing "
                                               "seen in full light",
                                               v.brightest);
-    return {{fmt::format("mean radiance of a tile of {} px, all but {:g} % of the tiles", e.tile_px,
-                         100 * (1 - e.tiles_needed_share)),
-             "", mean, tolerance, "the tolerance on a tile",
-             EffectBounds{
-                 .polarisation = {of_orb(polarised), "shares of all orders with s and p apart, against unpolarised ones; " + brightest},
-                 .dispersion = {change({at(settings.least_wavelength_nm), at(settings.greatest_wavelength_nm)}, false),
-                                fmt::format("traced at the indices of {:g} and {:g} nm, Abbe number {:g}",
-                                            settings.least_wavelength_nm, settings.greatest_wavelength_nm,
-                                            settings.abbe_number)},
-                 .absorption = {of_orb(lost), fmt::format("all orders weakened by exp(-{:g} per mm times their way in the glass); ",
-                                                          settings.absorption_per_mm) + brightest},
-                 .birefringence = {change({with_index(half, index - strain), with_index(half, index + strain)}, false),
-                                   fmt::format("traced at both indices of glass strained by {:g} nm/cm",
-                                               settings.strain_nm_per_cm)},
-                 .light_size = {change({with_discs(half, settings.light_deg)}, false),
-                                fmt::format("traced with each light as seven over a disc of {:g} degrees",
-                                            settings.light_deg)},
-                 .caustics = caustics_of(v),
-                 .interreflection = interreflection_of(v),
-                 .pupil = {change(std::move(pinholes), true),
-                           fmt::format("traced from six points of a pupil of {:g} mm (and its middle), focused at the orb",
-                                       settings.pupil_mm)}}}};
+    return {
+        {fmt::format("mean radiance of a tile of {} px, all but {:g} % of the tiles", e.tile_px,
+                     100 * (1 - e.tiles_needed_share)),
+         "", mean, tolerance, "the tolerance on a tile",
+         EffectBounds{
+             .polarisation = {of_orb(polarised),
+                              "shares of all orders with s and p apart, against unpolarised ones; " + brightest},
+             .dispersion = {change({at(settings.least_wavelength_nm), at(settings.greatest_wavelength_nm)}, false),
+                            fmt::format("traced at the indices of {:g} and {:g} nm, Abbe number {:g}",
+                                        settings.least_wavelength_nm, settings.greatest_wavelength_nm,
+                                        settings.abbe_number)},
+             .absorption = {of_orb(lost),
+                            fmt::format("all orders weakened by exp(-{:g} per mm times their way in the glass); ",
+                                        settings.absorption_per_mm) +
+                                brightest},
+             .birefringence = {change({with_index(half, index - strain), with_index(half, index + strain)}, false),
+                               fmt::format("traced at both indices of glass strained by {:g} nm/cm",
+                                           settings.strain_nm_per_cm)},
+             .light_size = {change({with_discs(half, settings.light_deg)}, false),
+                            fmt::format("traced with each light as seven over a disc of {:g} degrees",
+                                        settings.light_deg)},
+             .caustics = caustics_of(v),
+             .interreflection = interreflection_of(v),
+             .pupil = {change(std::move(pinholes), true),
+                       fmt::format("traced from six points of a pupil of {:g} mm (and its middle), focused at the orb",
+                                   settings.pupil_mm)}}}};
 }
 
 } // namespace threefold

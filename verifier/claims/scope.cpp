@@ -23,9 +23,7 @@ const std::array<EffectEntry, 8> &effects() {
     return all;
 }
 
-std::string_view to_string(Effect effect) {
-    return std::ranges::find(effects(), effect, &EffectEntry::effect)->name;
-}
+std::string_view to_string(Effect effect) { return std::ranges::find(effects(), effect, &EffectEntry::effect)->name; }
 
 Bound::Bound(PictureChange change, std::string why_)
     : value(std::numeric_limits<double>::quiet_NaN()), why(std::move(why_)),

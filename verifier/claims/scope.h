@@ -46,7 +46,8 @@ struct ScopeSettings {
     double strain_nm_per_cm = 20;    ///< path difference by strain, the coarsest grade of ISO 10110-2 for images
     double light_deg = 0.53;         ///< across: the sun
     double pupil_mm = 4;             ///< across
-    double calcite_abbe_ordinary = 48.8, calcite_abbe_extraordinary = 78.5; ///< n_F, n_C: 1.6679, 1.6544; 1.4908, 1.4846
+    double calcite_abbe_ordinary = 48.8,
+           calcite_abbe_extraordinary = 78.5; ///< n_F, n_C: 1.6679, 1.6544; 1.4908, 1.4846
 };
 
 /// A question for whoever can render: how far do the means of a picture's tiles move when the scene is another one?

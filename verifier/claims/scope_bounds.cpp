@@ -17,7 +17,9 @@ namespace threefold {
 namespace {
 
 /// NaN is the greatest: what could not be told may be anything.
-double greater(double a, double b) { return std::isnan(a) || std::isnan(b) ? std::numeric_limits<double>::infinity() : std::max(a, b); }
+double greater(double a, double b) {
+    return std::isnan(a) || std::isnan(b) ? std::numeric_limits<double>::infinity() : std::max(a, b);
+}
 
 struct Span {
     double greatest_change, least, most;
@@ -64,9 +66,10 @@ Bound with_exchange(Bound birefringence, const ScopeSettings &settings, double g
     const double difference_nm = settings.strain_nm_per_cm * glass_mm / 10;
     const double share = optics::exchanged_share(difference_nm, settings.least_wavelength_nm);
     birefringence.value += 4 * share * std::abs(polarisation);
-    birefringence.why += fmt::format("; over {:.3g} mm of glass a crossing, strain exchanges at most {:.2g} of s and p, "
-                                     "which moves it by four times that share of what polarisation does",
-                                     glass_mm, share);
+    birefringence.why +=
+        fmt::format("; over {:.3g} mm of glass a crossing, strain exchanges at most {:.2g} of s and p, "
+                    "which moves it by four times that share of what polarisation does",
+                    glass_mm, share);
     return birefringence;
 }
 
@@ -95,10 +98,11 @@ Bound over_disc(double diameter_mm, const std::string &what, const std::function
         first = false;
     }
     const double change = std::abs(mean - here);
-    return {std::isnan(change) ? std::numeric_limits<double>::infinity() : change,
-            fmt::format("the closed form, mean over seven points of a {} of {:.3g} mm; at any one of them it differs by "
-                        "at most {:.2g}",
-                        what, diameter_mm, farthest)};
+    return {
+        std::isnan(change) ? std::numeric_limits<double>::infinity() : change,
+        fmt::format("the closed form, mean over seven points of a {} of {:.3g} mm; at any one of them it differs by "
+                    "at most {:.2g}",
+                    what, diameter_mm, farthest)};
 }
 
 Ray from_pupil(const Ray &ray, const CameraFrame &frame, Vec2 aside_mm, double distance_mm) {
@@ -142,7 +146,8 @@ Scene with_discs(Scene scene, double light_deg) {
         const Vec3 aside = glm::normalize(glm::cross(std::abs(d.y) < 0.9 ? Vec3(0, 1, 0) : Vec3(1, 0, 0), d));
         bool middle = true;
         for (const Vec2 &at : disc_points(2 * std::tan(light_deg / 2 * std::numbers::pi / 180))) {
-            lights.push_back({d + at.x * aside + at.y * glm::cross(d, aside), light.irradiance * (middle ? 0.25 : 0.125)});
+            lights.push_back(
+                {d + at.x * aside + at.y * glm::cross(d, aside), light.irradiance * (middle ? 0.25 : 0.125)});
             middle = false;
         }
     }
@@ -227,7 +232,8 @@ std::string margin_words(Threshold threshold, const std::string &unit) {
 Expected expected_row(const Experiment &e, const std::string &quantity) {
     const std::vector<Expected> rows = e.predict(reference_accuracy());
     const auto found = std::ranges::find(rows, quantity, &Expected::quantity);
-    if (found == rows.end()) throw Error(Exit::internal, "a claim's scope asked for a row that it has not: " + quantity);
+    if (found == rows.end())
+        throw Error(Exit::internal, "a claim's scope asked for a row that it has not: " + quantity);
     return *found;
 }
 

@@ -12,7 +12,8 @@ namespace threefold {
 /// The context with more assignments, after the user's own.
 ClaimContext with(ClaimContext context, const std::vector<Assignment> &more);
 
-/// Both move the index of the glass: `number` is asked at indices over the visible range, and at those that strain makes.
+/// Both move the index of the glass: `number` is asked at indices over the visible range, and at those that strain
+/// makes.
 struct IndexBounds {
     Bound dispersion, birefringence;
 };
@@ -61,8 +62,8 @@ Bound directions_know_no_absorption();
 
 /// Of a number about directions and places, in a scene where nothing is lit.
 EffectBounds of_directions(const Scene &scene, const IndexBounds &index, const Bound &pupil);
-/// Of a share of light, in a scene where nothing is lit: `number` is asked for other orbs in the same place of the film,
-/// for other models of light, and for pinholes beside the eye. `glass_mm`: with_exchange.
+/// Of a share of light, in a scene where nothing is lit: `number` is asked for other orbs in the same place of the
+/// film, for other models of light, and for pinholes beside the eye. `glass_mm`: with_exchange.
 EffectBounds of_light(const Scene &scene, const OrbInScene &orb, const ScopeSettings &settings, double glass_mm,
                       const std::function<double(const OrbInScene &, const LightModel &, Vec2 aside_mm)> &number);
 

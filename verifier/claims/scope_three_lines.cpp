@@ -30,10 +30,10 @@ EffectBounds line_bounds(const Experiment &e, const LinesAsked &asked, const Sof
     const bool has_eye = e.scene.camera.projection == Projection::perspective;
     const char *alike = "on a circle all rays have the same impact parameter and lose the same share of light: the "
                         "line's centre of darkness stays where refraction puts it";
-    EffectBounds bounds = of_directions(
-        e.scene, index,
-        has_eye ? by_pupil(settings, [&](Vec2 aside) { return jump(asked.view, e.scene.camera, aside); })
-                : Bound::none("the view is orthographic: it has no eye, and so no pupil"));
+    EffectBounds bounds =
+        of_directions(e.scene, index,
+                      has_eye ? by_pupil(settings, [&](Vec2 aside) { return jump(asked.view, e.scene.camera, aside); })
+                              : Bound::none("the view is orthographic: it has no eye, and so no pupil"));
     bounds.polarisation = bounds.absorption = Bound::none(alike);
     return bounds;
 }
@@ -48,11 +48,10 @@ std::vector<ScopeNumber> scope_three_lines(const ClaimContext &context, const Sc
         for (const NamedLine &named : asked.lines) {
             if (named.name == "lower line") continue; // the upper one, mirrored
             const double seen = asked.arcmin(e.scene.camera, predicted_jump(asked.view, e.scene.camera, named.line));
-            numbers.push_back({fmt::format("break of the {} behind the {} orb", named.name,
-                                           kind == "bent" ? "hollow" : kind),
-                               "arcmin", seen, margin_to(seen, {asked.acuity_arcmin}),
-                               margin_words({asked.acuity_arcmin}, "arcmin"),
-                               line_bounds(e, asked, named.line, settings)});
+            numbers.push_back(
+                {fmt::format("break of the {} behind the {} orb", named.name, kind == "bent" ? "hollow" : kind),
+                 "arcmin", seen, margin_to(seen, {asked.acuity_arcmin}), margin_words({asked.acuity_arcmin}, "arcmin"),
+                 line_bounds(e, asked, named.line, settings)});
         }
     }
     return numbers;

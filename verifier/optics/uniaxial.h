@@ -3,8 +3,8 @@
 // ordinary ray is that of an isotropic ball (transmitted_ray.h). World frame, millimetres.
 //
 // With k in units of the vacuum wave number, the extraordinary wave surface is (k.c)^2 / n_o^2 + |k x c|^2 / n_e^2 = 1
-// (Born & Wolf 15.3.2); along a smooth surface the tangential part of k stays; energy goes along the surface's normal in
-// k space, which is the ray. Valid for any two indices above that of air.
+// (Born & Wolf 15.3.2); along a smooth surface the tangential part of k stays; energy goes along the surface's normal
+// in k space, which is the ray. Valid for any two indices above that of air.
 #pragma once
 
 #include <optional>

@@ -35,7 +35,8 @@ void add_picture(Out &out, const ReportPicture &picture, const std::string &scen
         R"(<figure><div class="frame" style="--shape:{:.4g}"><button type="button" class="picture{}" aria-label="Enlarge: {}"><img src="data:image/png;base64,{}" )"
         R"(width="{}" height="{}" alt="{}, {}" decoding="async"></button>{}</div><figcaption>{}</figcaption></figure>)"
         "\n",
-        static_cast<double>(width) / static_cast<double>(height), width <= pixelated_up_to_px ? " small" : "", title, data, width, height, scene, title, marks, title);
+        static_cast<double>(width) / static_cast<double>(height), width <= pixelated_up_to_px ? " small" : "", title,
+        data, width, height, scene, title, marks, title);
 }
 
 void add_strip(Out &out, const std::vector<const ReportPicture *> &pictures, const std::string &scene,

@@ -42,10 +42,10 @@ void add_timing(Out &out, const RunResult &result) {
     const double overhead = result.seconds - result.renderer_seconds;
     fmt::format_to(std::back_inserter(out), "<h3>Time</h3>\n<p>{} in all", typeset(duration(result.seconds)));
     if (result.renderer_seconds > 0) {
-        fmt::format_to(std::back_inserter(out), ", {} of it with renderers at work, side by side", typeset(duration(result.renderer_seconds)));
+        fmt::format_to(std::back_inserter(out), ", {} of it with renderers at work, side by side",
+                       typeset(duration(result.renderer_seconds)));
         if (result.tracer_seconds > 0)
-            fmt::format_to(std::back_inserter(out), " (our own tracer: {})",
-                           typeset(duration(result.tracer_seconds)));
+            fmt::format_to(std::back_inserter(out), " (our own tracer: {})", typeset(duration(result.tracer_seconds)));
     }
     out += ".";
     if (overhead >= 0 && result.renderer_seconds > 0) {

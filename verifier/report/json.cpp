@@ -104,7 +104,8 @@ Json from_row(const Row &row) {
           {"standard_error", real(row.measured.standard_error)},
           {"degrees_of_freedom", real(row.measured.degrees_of_freedom)},
           {"replicates", row.measured.replicates}}},
-        {"interval", {{"low", real(row.interval.low)}, {"high", real(row.interval.high)}, {"coverage", 1 - 2 * row.level}}},
+        {"interval",
+         {{"low", real(row.interval.low)}, {"high", real(row.interval.high)}, {"coverage", 1 - 2 * row.level}}},
         {"expected", real(row.expected)},
         {"tolerance", real(row.tolerance)},
         {"budget", from_budget(row.budget)},
@@ -146,8 +147,8 @@ Json from_flip(const FlipPoint &f) {
 }
 
 Json from_scope(const ScopeFinding &f) {
-    return {{"effect", text(f.effect)}, {"quantity", text(f.quantity)}, {"unit", text(f.unit)},
-            {"value", real(f.value)},   {"bound", real(f.bound)},       {"margin", real(f.margin)},
+    return {{"effect", text(f.effect)},    {"quantity", text(f.quantity)}, {"unit", text(f.unit)},
+            {"value", real(f.value)},      {"bound", real(f.bound)},       {"margin", real(f.margin)},
             {"sentence", text(f.sentence)}};
 }
 

@@ -126,9 +126,9 @@ std::string coverage(const Row &row) { return fmt::format("{:g} %", 100 * (1 - 2
 std::string sentence(const Row &row) {
     const double step = resolution(row);
     const std::string unit = row.unit.empty() ? "" : " " + row.unit;
-    return fmt::format("measured {}{} ({} interval {} to {}), {}{}", number_at(row.measured.mean, step), unit, coverage(row),
-                       number_at(row.interval.low, step), number_at(row.interval.high, step), expectation(row, step),
-                       unit);
+    return fmt::format("measured {}{} ({} interval {} to {}), {}{}", number_at(row.measured.mean, step), unit,
+                       coverage(row), number_at(row.interval.low, step), number_at(row.interval.high, step),
+                       expectation(row, step), unit);
 }
 
 std::string sentence(const TileComparison &t) {

@@ -52,7 +52,8 @@ std::string stmap_target(const Scene &scene, const std::string &asked) {
     std::vector<std::string> names;
     for (const Object &object : scene.objects)
         if (has_coordinates(object.shape)) names.push_back(object.name);
-    if (names.empty()) throw Error(Exit::bad_data, "the scene has no surface with texture coordinates to make a map of");
+    if (names.empty())
+        throw Error(Exit::bad_data, "the scene has no surface with texture coordinates to make a map of");
     if (!asked.empty()) {
         if (std::ranges::count(names, asked) == 0) throw Error(Exit::usage, unknown_name("surface", asked, names));
         return asked;
@@ -88,14 +89,15 @@ std::vector<ExportedFile> make_stmap_files(const ExportJob &job, const std::stri
                 {{"threefold:scene", one_line(job.provenance.scene)},
                  {"threefold:scene_hash", job.provenance.scene_hash},
                  {"threefold:surface", one_line(target)}});
-    return {{name + ".exr", read_file(folder.path() / "map.exr")},
-            {name + ".png", encode_png16(to_16_bits(map))},
-            {"README.txt",
-             fmt::format("{}\n{}.exr: 32-bit float, linear. Red is u (to the right), green is v (up), both 0 to 1 over the "
-                         "surface \"{}\";\nblue is 1 where the pixel's ray lands on it, and 0 elsewhere. In a "
-                         "compositor: STMap with red and green as UV,\nno filter, and blue as the mask.\n{}.png: the "
-                         "same in 16 bits, linear, to look at.\n",
-                         to_text(job.provenance), name, one_line(target), name)}};
+    return {
+        {name + ".exr", read_file(folder.path() / "map.exr")},
+        {name + ".png", encode_png16(to_16_bits(map))},
+        {"README.txt",
+         fmt::format("{}\n{}.exr: 32-bit float, linear. Red is u (to the right), green is v (up), both 0 to 1 over the "
+                     "surface \"{}\";\nblue is 1 where the pixel's ray lands on it, and 0 elsewhere. In a "
+                     "compositor: STMap with red and green as UV,\nno filter, and blue as the mask.\n{}.png: the "
+                     "same in 16 bits, linear, to look at.\n",
+                     to_text(job.provenance), name, one_line(target), name)}};
 }
 
 } // namespace threefold

@@ -31,7 +31,20 @@ Real length(const V &v) { return sqrt(dot(v, v)); }
 V unit(const V &v) { return (1 / length(v)) * v; }
 
 /// Every number that the scene gives.
-enum Input { eye = 0, target = 3, up = 6, view = 9, centre = 10, outer = 13, wall = 14, index = 15, card = 16, half_u = 19, half_v = 22, inputs = 25 };
+enum Input {
+    eye = 0,
+    target = 3,
+    up = 6,
+    view = 9,
+    centre = 10,
+    outer = 13,
+    wall = 14,
+    index = 15,
+    card = 16,
+    half_u = 19,
+    half_v = 22,
+    inputs = 25
+};
 using Inputs = std::array<Real, inputs>;
 
 V vector_at(const Inputs &x, int first) {
@@ -243,8 +256,7 @@ ExactPixel exact_pixel(const Scene &scene, int column, int row) {
     p.lands = landing.has_value();
     const Answer here = answer(s, x);
     p.disagreement_mm = moved({landing, m.impact}, here);
-    if (landing.has_value() != here.landing.has_value())
-        p.disagreement_mm = std::numeric_limits<double>::infinity();
+    if (landing.has_value() != here.landing.has_value()) p.disagreement_mm = std::numeric_limits<double>::infinity();
     if (landing)
         p.uv = {static_cast<double>(Real((1 + landing->u_mm / length(vector_at(x, half_u))) / 2)),
                 static_cast<double>(Real((1 + landing->v_mm / length(vector_at(x, half_v))) / 2))};

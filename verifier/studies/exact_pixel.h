@@ -11,19 +11,20 @@
 namespace threefold {
 
 struct ExactPixel {
-    bool lands = false;    ///< on the card's plane, ahead of the ray
-    Vec2 uv{0};            ///< there, in card coordinates; outside [0, 1] beside the card
-    double impact_mm = 0;  ///< distance of the pixel's ray from the orb's centre
-    double to_edge_mm = 0; ///< to the nearest impact at which light takes another way: the outer radius, inner, index * inner
+    bool lands = false;   ///< on the card's plane, ahead of the ray
+    Vec2 uv{0};           ///< there, in card coordinates; outside [0, 1] beside the card
+    double impact_mm = 0; ///< distance of the pixel's ray from the orb's centre
+    double to_edge_mm =
+        0; ///< to the nearest impact at which light takes another way: the outer radius, inner, index * inner
 
     /// What relative changes of all given numbers do, summed over them: nobody can know the landing better than one
     /// rounding of the given numbers times this. Places count from the orb's centre.
     double condition_mm = 0, impact_condition_mm = 0; ///< of the landing, and of the impact
 
     // By how much the landing moves, mm a mm or a pixel.
-    double per_shift = 0; ///< of the orb
+    double per_shift = 0;                ///< of the orb
     double per_outer = 0, per_inner = 0; ///< of one radius alone
-    double per_pixel_mm = 0; ///< of the sample position, in mm a pixel
+    double per_pixel_mm = 0;             ///< of the sample position, in mm a pixel
     double impact_per_pixel_mm = 0;
 
     double disagreement_mm = 0; ///< of the two ways

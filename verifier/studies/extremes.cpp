@@ -93,8 +93,8 @@ private:
         std::vector<ExactPixel> exact;
         for (const Column &column : columns_) {
             if (request_.on_progress)
-                request_.on_progress(done_ / steps_, fmt::format("{} {}, {}", sweep.name, point.label,
-                                                                 column.witness->title));
+                request_.on_progress(done_ / steps_,
+                                     fmt::format("{} {}, {}", sweep.name, point.label, column.witness->title));
             row.findings.push_back(finding_of(sweep, point, column, exact, row.condition));
             done_ += 1;
         }
@@ -118,8 +118,7 @@ private:
         }
         const Stated stated{rendered->record.accuracy, column.rounding, column.floor};
         const Image &image = rendered->images.front();
-        if (sweep.probe == Probe::light)
-            return judge_light(image, job.scene, stated, job.samples_per_pixel);
+        if (sweep.probe == Probe::light) return judge_light(image, job.scene, stated, job.samples_per_pixel);
         if (exact.empty()) {
             exact = exact_pixels(job.scene);
             const double radius = orb_of(job.scene).optics.outer_mm;

@@ -40,7 +40,7 @@ inline constexpr double least_lit_share = 0.25; ///< of the judged pixels
 inline constexpr double double_floor = 1e-11, float_floor = 1e-5, roundings = 10;
 
 struct ExtremesRequest {
-    std::vector<Witness> witnesses; ///< the tracer stands for itself in double and in float
+    std::vector<Witness> witnesses;  ///< the tracer stands for itself in double and in float
     std::vector<std::string> sweeps; ///< names; empty: all
     bool quick = false;
     int threads = 0;
@@ -53,8 +53,8 @@ struct ExtremesRequest {
 struct ExtremeFinding {
     Standing standing = Standing::unresolved;
     int judged = 0, unresolved = 0, wrong = 0, forgiven = 0; ///< pixels
-    int lit = 0; ///< judged pixels that should show the card, or light
-    double worst = 0;   ///< greatest error of a judged pixel that is a number, in radii or as a share of the light
+    int lit = 0;                                             ///< judged pixels that should show the card, or light
+    double worst = 0; ///< greatest error of a judged pixel that is a number, in radii or as a share of the light
     double median = 0;
     double bound = 0;   ///< stated, where the error is nearest to it or farthest beyond it
     double times = 0;   ///< that error over that bound
@@ -70,7 +70,7 @@ struct ExtremeRow {
     std::string label;
     double value = 0;
     bool promised = false;
-    double condition = 0;       ///< greatest condition number of a judged pixel, in radii
+    double condition = 0;                 ///< greatest condition number of a judged pixel, in radii
     std::vector<ExtremeFinding> findings; ///< one a column
 };
 

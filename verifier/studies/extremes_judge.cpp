@@ -114,8 +114,7 @@ ExtremeFinding judge_landing(const Image &image, const Scene &scene, std::span<c
         bool seen = false;
         if (e.lands) {
             double inside_mm = infinite; // negative: beside the card
-            for (int k = 0; k < 2; ++k)
-                inside_mm = std::min(inside_mm, std::min(e.uv[k], 1 - e.uv[k]) * side_mm[k]);
+            for (int k = 0; k < 2; ++k) inside_mm = std::min(inside_mm, std::min(e.uv[k], 1 - e.uv[k]) * side_mm[k]);
             open |= std::abs(inside_mm) <= bound_mm;
             seen = inside_mm > 0;
         }
@@ -170,7 +169,8 @@ ExtremeFinding judge_light(const Image &image, const Scene &scene, const Stated 
             expected_sum += expected;
             bound_sum += bound;
             if (a.random_branches) continue;
-            pixels.push_back({is_number(pixel) ? std::abs(pixel.g - expected) : std::numeric_limits<double>::infinity(), bound});
+            pixels.push_back(
+                {is_number(pixel) ? std::abs(pixel.g - expected) : std::numeric_limits<double>::infinity(), bound});
         }
     f.lit = static_cast<int>(image.pixels.size()); // all of it is light
     if (a.random_branches) {

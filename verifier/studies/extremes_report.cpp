@@ -40,7 +40,8 @@ Table table_of(const ExtremesResult &result, const ExtremeSweepResult &sweep) {
     for (const ExtremeRow &row : sweep.rows) {
         std::vector<std::string> line{row.label};
         for (const ExtremeFinding &f : row.findings) line.push_back(cell(f));
-        if (sweep.probe == Probe::landing) line.push_back(row.condition > 0 ? fmt::format("{:.0e}", row.condition) : "");
+        if (sweep.probe == Probe::landing)
+            line.push_back(row.condition > 0 ? fmt::format("{:.0e}", row.condition) : "");
         table.push_back(std::move(line));
     }
     return table;
@@ -60,7 +61,8 @@ std::vector<std::string> refusals(const ExtremesResult &result, const ExtremeSwe
                 return other.standing == Standing::refused && other.reason == f.reason;
             });
             if (by_all && k > 0) continue;
-            all.push_back(fmt::format("{} at {}: {}", by_all && result.columns.size() > 1 ? "everyone" : result.columns[k].title,
+            all.push_back(fmt::format("{} at {}: {}",
+                                      by_all && result.columns.size() > 1 ? "everyone" : result.columns[k].title,
                                       row.label, f.reason));
             if (!by_all || result.columns.size() == 1) break; // those further out are refused alike
         }
@@ -86,7 +88,12 @@ std::string reach(const ExtremesResult &result, const ExtremeSweepResult &sweep,
 Json to_json(const ExtremeFinding &f) {
     using report::real;
     return {{"standing", to_string(f.standing)},
-            {"pixels", {{"judged", f.judged}, {"lit", f.lit}, {"unresolved", f.unresolved}, {"wrong", f.wrong}, {"forgiven", f.forgiven}}},
+            {"pixels",
+             {{"judged", f.judged},
+              {"lit", f.lit},
+              {"unresolved", f.unresolved},
+              {"wrong", f.wrong},
+              {"forgiven", f.forgiven}}},
             {"worst_error", real(f.worst)},
             {"median_error", real(f.median)},
             {"stated_bound", real(f.bound)},
@@ -107,12 +114,13 @@ std::string conclusion(const ExtremesResult &result) {
                 ++promised;
                 kept += row.findings[k].standing == Standing::right;
             }
-    return fmt::format("{} renders asked: {} right, {} degraded, {} unresolved, {} refused, {} wrong. Our tracer in double "
-                       "precision is right at {} of the {} points that it answers for.",
-                       count[Standing::right] + count[Standing::degraded] + count[Standing::unresolved] +
-                           count[Standing::refused] + count[Standing::wrong],
-                       count[Standing::right], count[Standing::degraded], count[Standing::unresolved],
-                       count[Standing::refused], count[Standing::wrong], kept, promised);
+    return fmt::format(
+        "{} renders asked: {} right, {} degraded, {} unresolved, {} refused, {} wrong. Our tracer in double "
+        "precision is right at {} of the {} points that it answers for.",
+        count[Standing::right] + count[Standing::degraded] + count[Standing::unresolved] + count[Standing::refused] +
+            count[Standing::wrong],
+        count[Standing::right], count[Standing::degraded], count[Standing::unresolved], count[Standing::refused],
+        count[Standing::wrong], kept, promised);
 }
 
 Json to_json(const ExtremesResult &result) {
@@ -176,11 +184,11 @@ std::string to_markdown(const ExtremesResult &result, const std::string &picture
     for (const auto &[name, version] : result.versions)
         if (std::ranges::any_of(result.columns, [&name = name](const ExtremeColumn &c) { return c.title == name; }))
             versions.push_back(fmt::format("{} {}", name, version));
-    std::string out = fmt::format(
-        "# Where each renderer breaks, and whether it says so\n\n"
-        "Made by `{}` (Threefold {}{}{}, {}, {:.0f} minutes).\n\n{}\n\n![Map of the extremes]({})\n\n",
-        result.command, result.threefold_version, versions.empty() ? "" : ", ", fmt::join(versions, ", "),
-        result.started.substr(0, 10), std::ceil(result.seconds / 60), conclusion(result), picture);
+    std::string out =
+        fmt::format("# Where each renderer breaks, and whether it says so\n\n"
+                    "Made by `{}` (Threefold {}{}{}, {}, {:.0f} minutes).\n\n{}\n\n![Map of the extremes]({})\n\n",
+                    result.command, result.threefold_version, versions.empty() ? "" : ", ", fmt::join(versions, ", "),
+                    result.started.substr(0, 10), std::ceil(result.seconds / 60), conclusion(result), picture);
     const std::vector<std::string> faults = result.faults();
     for (const std::string &fault : faults) out += fmt::format("- **{}**\n", fault);
     if (!faults.empty()) out += "\n";

@@ -67,8 +67,8 @@ int height_of(const ExtremesResult &result) {
 
 void add_block(std::string &out, const ExtremesResult &result, const ExtremeSweepResult &sweep, int x, int y) {
     fmt::format_to(std::back_inserter(out),
-                   "<text class=\"title\" x=\"{}\" y=\"{}\">{}<tspan class=\"number\" dx=\"8\">{}</tspan></text>\n", x + names_width, y + 20,
-                   html_text(sweep.title), html_text(sweep.number));
+                   "<text class=\"title\" x=\"{}\" y=\"{}\">{}<tspan class=\"number\" dx=\"8\">{}</tspan></text>\n",
+                   x + names_width, y + 20, html_text(sweep.title), html_text(sweep.number));
     for (std::size_t k = 0; k < result.columns.size(); ++k) {
         const int top = y + title_height + static_cast<int>(k) * (cell_height + gap);
         fmt::format_to(std::back_inserter(out), "<text class=\"name\" x=\"{}\" y=\"{}\">{}</text>\n",
@@ -78,11 +78,13 @@ void add_block(std::string &out, const ExtremesResult &result, const ExtremeSwee
             const int left = x + names_width + static_cast<int>(i) * (cell_width + gap);
             std::string tip = fmt::format("{}, {} = {}: {}", result.columns[k].title, sweep.number, sweep.rows[i].label,
                                           to_string(f.standing));
-            if (f.judged > 0) tip += fmt::format("; error {:.2g}, stated {:.2g}, {} pixels", f.worst, f.bound, f.judged);
+            if (f.judged > 0)
+                tip += fmt::format("; error {:.2g}, stated {:.2g}, {} pixels", f.worst, f.bound, f.judged);
             if (!f.reason.empty()) tip += "; " + f.reason;
-            fmt::format_to(std::back_inserter(out),
-                           "<g><title>{}</title><rect class=\"{}\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" rx=\"3\"/>",
-                           html_text(tip), class_of(f), left, top, cell_width, cell_height);
+            fmt::format_to(
+                std::back_inserter(out),
+                "<g><title>{}</title><rect class=\"{}\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" rx=\"3\"/>",
+                html_text(tip), class_of(f), left, top, cell_width, cell_height);
             if (const std::string text = magnitude(f); !text.empty())
                 fmt::format_to(std::back_inserter(out), "<text class=\"value{}\" x=\"{}\" y=\"{}\">{}</text>",
                                f.standing == Standing::wrong ? " on-wrong" : "", left + cell_width / 2, top + 15, text);
@@ -101,10 +103,11 @@ void add_key(std::string &out, int x, int y) {
         std::string_view kind, text;
         int width;
     };
-    for (const Entry &e : {Entry{"right", "right, to 1e-9", 132}, Entry{"right2", "to 1e-6", 92}, Entry{"right3", "to 1e-3 of the radius", 166},
+    for (const Entry &e : {Entry{"right", "right, to 1e-9", 132}, Entry{"right2", "to 1e-6", 92},
+                           Entry{"right3", "to 1e-3 of the radius", 166},
                            Entry{"degraded", "degraded: visible but stated, or beyond what was stated", 400},
-                           Entry{"unresolved", "unresolved: nothing promised", 230}, Entry{"refused", "refused, with the reason", 200},
-                           Entry{"wrong", "wrong", 60}}) {
+                           Entry{"unresolved", "unresolved: nothing promised", 230},
+                           Entry{"refused", "refused, with the reason", 200}, Entry{"wrong", "wrong", 60}}) {
         fmt::format_to(std::back_inserter(out),
                        "<rect class=\"{}\" x=\"{}\" y=\"{}\" width=\"20\" height=\"14\" rx=\"3\"/>"
                        "<text class=\"key\" x=\"{}\" y=\"{}\">{}</text>\n",
@@ -130,8 +133,9 @@ std::string to_svg(const ExtremesResult &result) {
         "patternTransform=\"rotate(45)\"><rect width=\"6\" height=\"6\" fill=\"#f7f8fa\"/><rect width=\"2\" "
         "height=\"6\" fill=\"#b4bfc9\"/></pattern></defs>\n<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n",
         width, height, html_text(conclusion(result)), style);
-    fmt::format_to(std::back_inserter(out), "<text class=\"head\" x=\"{0}\" y=\"44\">Where each renderer breaks, and "
-                                            "whether it says so</text>\n<text class=\"sub\" x=\"{0}\" y=\"66\">{1}</text>\n",
+    fmt::format_to(std::back_inserter(out),
+                   "<text class=\"head\" x=\"{0}\" y=\"44\">Where each renderer breaks, and "
+                   "whether it says so</text>\n<text class=\"sub\" x=\"{0}\" y=\"66\">{1}</text>\n",
                    margin, html_text(conclusion(result)));
     add_key(out, margin, 82);
     for (std::size_t i = 0; i < result.sweeps.size(); ++i) {

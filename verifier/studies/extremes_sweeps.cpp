@@ -19,14 +19,15 @@ constexpr int light_side_px = 5; // a light probe is the same all over
 
 Glass coated(double n = index) { return {n, 1, Coating::antireflective}; }
 
-GlassShell shell(double wall_share, double n = index) { return {Vec3(0), radius_mm, radius_mm * wall_share, coated(n)}; }
+GlassShell shell(double wall_share, double n = index) {
+    return {Vec3(0), radius_mm, radius_mm * wall_share, coated(n)};
+}
 GlassBall ball(double n = index) { return {Vec3(0), radius_mm, coated(n)}; }
 
 Scene before_card(Shape orb, double at_mm = card_mm) {
     Scene scene;
-    scene.objects = {
-        {"orb", std::move(orb)},
-        {"card", Quad{{0, 0, -at_mm}, {card_half_mm, 0, 0}, {0, card_half_mm, 0}, CoordinateCard{}}}};
+    scene.objects = {{"orb", std::move(orb)},
+                     {"card", Quad{{0, 0, -at_mm}, {card_half_mm, 0, 0}, {0, card_half_mm, 0}, CoordinateCard{}}}};
     scene.camera.eye_mm = {0, 0, eye_mm};
     scene.camera.width_px = scene.camera.height_px = side_px;
     return scene;
@@ -109,7 +110,8 @@ std::vector<Value> decades(int from, int to, const std::function<bool(int)> &pro
 ExtremeSweep sweep(std::string name, std::string title, std::string number, const std::vector<Value> &values,
                    const std::function<Scene(double)> &scene) {
     ExtremeSweep s{std::move(name), std::move(title), std::move(number), Probe::landing, {}};
-    for (const Value &v : values) s.points.push_back({fmt::format("{:g}", v.value), v.value, scene(v.value), v.promised});
+    for (const Value &v : values)
+        s.points.push_back({fmt::format("{:g}", v.value), v.value, scene(v.value), v.promised});
     return s;
 }
 
@@ -122,42 +124,49 @@ constexpr auto always = [](int) { return true; };
 
 std::vector<ExtremeSweep> shape_sweeps() {
     std::vector<ExtremeSweep> all;
-    all.push_back(sweep("wall", "Ever thinner wall of a hollow orb", "wall / R",
-                        join(join(decades(-1, -4, always), {{1e-3 / radius_mm, true}}),
-                             join(decades(-5, -9, always), {{0, false}})),
-                        [](double w) { return before_card(shell(w)); }));
+    all.push_back(sweep(
+        "wall", "Ever thinner wall of a hollow orb", "wall / R",
+        join(join(decades(-1, -4, always), {{1e-3 / radius_mm, true}}), join(decades(-5, -9, always), {{0, false}})),
+        [](double w) { return before_card(shell(w)); }));
     all.back().points[4].label = "1 µm";
     all.back().points[4].landmark = true;
     all.push_back(sweep("hollow", "Ever smaller hollow in a thick orb", "hollow / R",
-                        {{0.5, true}, {0.1, true}, {1e-2, true}, {1e-3, true}, {2e-4, true}, {1e-6, true}, {1e-9, true}, {1e-12, false}, {0, false}},
+                        {{0.5, true},
+                         {0.1, true},
+                         {1e-2, true},
+                         {1e-3, true},
+                         {2e-4, true},
+                         {1e-6, true},
+                         {1e-9, true},
+                         {1e-12, false},
+                         {0, false}},
                         [](double h) {
                             Scene scene = before_card(shell(1 - h));
                             // Only rays near the axis meet so small a hollow.
                             scene.camera.horizontal_fov_deg *= h > 0.5 ? 1 : std::max(h, 1e-9) * 1.5;
                             return scene;
                         }));
-    const auto indices = join(join({{4, true}, {3, true}, {2, true}, {index, true}}, {{1.1, true}, {1.001, true}, {1 + 1e-6, true}}),
-                              {{1 + 1e-9, true}, {1 + 1e-12, false}, {1, false}});
+    const auto indices =
+        join(join({{4, true}, {3, true}, {2, true}, {index, true}}, {{1.1, true}, {1.001, true}, {1 + 1e-6, true}}),
+             {{1 + 1e-9, true}, {1 + 1e-12, false}, {1, false}});
     for (const bool solid : {true, false}) {
-        ExtremeSweep s = sweep(solid ? "index-solid" : "index-hollow",
-                               solid ? "Index of a solid orb" : "Index of a hollow orb", "index",
-                               indices, [solid](double n) {
-                                   return solid ? before_card(ball(n)) : before_card(shell(wall, n));
-                               });
+        ExtremeSweep s = sweep(
+            solid ? "index-solid" : "index-hollow", solid ? "Index of a solid orb" : "Index of a hollow orb", "index",
+            indices, [solid](double n) { return solid ? before_card(ball(n)) : before_card(shell(wall, n)); });
         for (ExtremePoint &p : s.points)
             if (p.value < 1.001 && p.value > 1) p.label = fmt::format("1+{:.0e}", p.value - 1);
         all.push_back(std::move(s));
     }
     const auto nine = [](int e) { return e >= -9; };
-    all.push_back(sweep("grazing-solid", "Rays that graze a solid orb", "1 - b / R", decades(-1, -12, nine),
-                        [](double gap) {
-                            Scene scene = before_card(ball());
-                            // They leave by up to 97 degrees to the way they came: the card stands aside.
-                            std::get<Quad>(scene.objects[1].shape) = {
-                                {-card_mm, 0, 0}, {0, 0, card_half_mm}, {0, card_half_mm, 0}, CoordinateCard{}};
-                            look_along_edge(scene, radius_mm, gap);
-                            return scene;
-                        }));
+    all.push_back(
+        sweep("grazing-solid", "Rays that graze a solid orb", "1 - b / R", decades(-1, -12, nine), [](double gap) {
+            Scene scene = before_card(ball());
+            // They leave by up to 97 degrees to the way they came: the card stands aside.
+            std::get<Quad>(scene.objects[1].shape) = {
+                {-card_mm, 0, 0}, {0, 0, card_half_mm}, {0, card_half_mm, 0}, CoordinateCard{}};
+            look_along_edge(scene, radius_mm, gap);
+            return scene;
+        }));
     all.push_back(sweep("grazing-hollow", "Rays that graze the hollow from inside", "1 - b / r", decades(-1, -12, nine),
                         [](double gap) {
                             Scene scene = before_card(shell(wall));
@@ -174,36 +183,48 @@ std::vector<ExtremeSweep> place_sweeps() {
                         [](double by) { return scaled(before_card(shell(wall)), by); }));
     all.push_back(sweep("large", "The whole scene ever larger", "scale", decades(0, 9, six),
                         [](double by) { return scaled(before_card(shell(wall)), by); }));
-    all.push_back(sweep("offset", "The whole scene far from the origin", "offset / R",
-                        join({{0, true}}, decades(0, 8, always)), [](double by) {
-                            return moved(before_card(shell(wall)), by * radius_mm * Vec3(0.6, 0.64, -0.48));
-                        }));
+    all.push_back(
+        sweep("offset", "The whole scene far from the origin", "offset / R", join({{0, true}}, decades(0, 8, always)),
+              [](double by) { return moved(before_card(shell(wall)), by * radius_mm * Vec3(0.6, 0.64, -0.48)); }));
     return all;
 }
 
 std::vector<ExtremeSweep> view_sweeps() {
     std::vector<ExtremeSweep> all;
-    ExtremeSweep near = sweep("eye-near", "The eye comes to the orb", "(eye - R) / R",
-                              join(decades(1, -9, always), {{-0.01, false}, {-0.5, false}, {-1, false}}), [](double gap) {
-                                  Scene scene = before_card(shell(wall));
-                                  scene.camera.eye_mm = {0, 0, radius_mm * (1 + gap)};
-                                  scene.camera.target_mm = {0, 0, -card_mm};
-                                  scene.camera.horizontal_fov_deg = gap >= 1 ? 2 * std::atan(1.16 / (1 + gap)) * 180 / std::numbers::pi : 80;
-                                  return scene;
-                              });
+    ExtremeSweep near =
+        sweep("eye-near", "The eye comes to the orb", "(eye - R) / R",
+              join(decades(1, -9, always), {{-0.01, false}, {-0.5, false}, {-1, false}}), [](double gap) {
+                  Scene scene = before_card(shell(wall));
+                  scene.camera.eye_mm = {0, 0, radius_mm * (1 + gap)};
+                  scene.camera.target_mm = {0, 0, -card_mm};
+                  scene.camera.horizontal_fov_deg =
+                      gap >= 1 ? 2 * std::atan(1.16 / (1 + gap)) * 180 / std::numbers::pi : 80;
+                  return scene;
+              });
     near.points[near.points.size() - 3].label = "in wall";
     near.points[near.points.size() - 2].label = "in hollow";
     near.points.back().label = "centre";
     all.push_back(std::move(near));
-    all.push_back(sweep("eye-far", "The eye goes away, its field of view with it", "eye / R",
-                        decades(1, 8, always), [](double d) {
+    all.push_back(sweep("eye-far", "The eye goes away, its field of view with it", "eye / R", decades(1, 8, always),
+                        [](double d) {
                             Scene scene = before_card(shell(wall));
                             scene.camera.eye_mm = {0, 0, radius_mm * d};
                             scene.camera.horizontal_fov_deg = 2 * std::atan(1.16 / d) * 180 / std::numbers::pi;
                             return scene;
                         }));
     all.push_back(sweep("view", "Field of view", "degrees",
-                        {{10, true}, {90, true}, {150, true}, {175, true}, {179, true}, {1, true}, {0.1, true}, {1e-2, true}, {1e-3, true}, {1e-4, true}, {1e-5, true}, {1e-6, true}},
+                        {{10, true},
+                         {90, true},
+                         {150, true},
+                         {175, true},
+                         {179, true},
+                         {1, true},
+                         {0.1, true},
+                         {1e-2, true},
+                         {1e-3, true},
+                         {1e-4, true},
+                         {1e-5, true},
+                         {1e-6, true}},
                         [](double fov) {
                             Scene scene = before_card(shell(wall));
                             if (fov < 10) scene.camera.target_mm = {0.6 * radius_mm, 0.2 * radius_mm, 0};
@@ -211,14 +232,14 @@ std::vector<ExtremeSweep> view_sweeps() {
                             if (fov > 60) look_past(scene, fov);
                             return scene;
                         }));
-    all.push_back(sweep("target", "The point that the camera looks at, nearer and farther on one line", "(eye - target) / R",
-                        {{1e-9, true}, {1e-6, true}, {1e-3, true}, {1, true}, {1e3, true}, {1e6, true}, {1e9, true}},
-                        [](double d) {
-                            Scene scene = before_card(shell(wall));
-                            const Vec3 aim(0.05, 0.03, -1);
-                            scene.camera.target_mm = scene.camera.eye_mm + d * radius_mm * aim;
-                            return scene;
-                        }));
+    all.push_back(sweep(
+        "target", "The point that the camera looks at, nearer and farther on one line", "(eye - target) / R",
+        {{1e-9, true}, {1e-6, true}, {1e-3, true}, {1, true}, {1e3, true}, {1e6, true}, {1e9, true}}, [](double d) {
+            Scene scene = before_card(shell(wall));
+            const Vec3 aim(0.05, 0.03, -1);
+            scene.camera.target_mm = scene.camera.eye_mm + d * radius_mm * aim;
+            return scene;
+        }));
     all.push_back(sweep("backdrop", "The backdrop comes to the orb, and touches it", "gap / R",
                         join(decades(0, -9, always), {{0, true}}),
                         [](double gap) { return before_card(shell(wall), radius_mm * (1 + gap)); }));
@@ -229,7 +250,8 @@ std::vector<ExtremeSweep> view_sweeps() {
 std::string reflections(double gap) {
     const double sine = 1 - gap, cosine = std::sqrt(gap * (2 - gap));
     const double inside = std::sqrt((index - sine) * (index + sine)) / index;
-    const double s = (cosine - index * inside) / (cosine + index * inside), p = (index * cosine - inside) / (index * cosine + inside);
+    const double s = (cosine - index * inside) / (cosine + index * inside),
+                 p = (index * cosine - inside) / (index * cosine + inside);
     const double lost = 1 - (s * s + p * p) / 2;
     return fmt::format("{:.0f}", std::log(1e-6) / std::log1p(-lost));
 }
@@ -244,8 +266,8 @@ std::vector<ExtremeSweep> light_sweeps() {
         return scene;
     };
     std::vector<ExtremeSweep> all;
-    all.push_back(sweep("reflections-solid", "Light trapped at the rim of a solid orb", "reflections until 1e-6 is left",
-                        decades(-1, -9, always), [&](double gap) {
+    all.push_back(sweep("reflections-solid", "Light trapped at the rim of a solid orb",
+                        "reflections until 1e-6 is left", decades(-1, -9, always), [&](double gap) {
                             return furnace(GlassBall{Vec3(0), radius_mm, {}}, radius_mm, gap);
                         }));
     for (ExtremePoint &p : all.back().points) p.label = reflections(p.value);

@@ -9,8 +9,8 @@
 
 namespace threefold {
 
-/// `landing`: coated glass before the coordinate card; every pixel says where its ray landed. `light`: glass that splits
-/// light, in surroundings of radiance 1; every pixel must be 1, however long the light stays inside.
+/// `landing`: coated glass before the coordinate card; every pixel says where its ray landed. `light`: glass that
+/// splits light, in surroundings of radiance 1; every pixel must be 1, however long the light stays inside.
 enum class Probe { landing, light };
 
 struct ExtremePoint {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The scope study: for every claim and every effect that its model leaves out, a bound on how far it could move the
-// claim's numbers, beside their margins (claims/scope.h). Closed forms where there are any; where a bound is a picture's,
-// our tracer renders both scenes with the same samples and the tiles are compared.
+// claim's numbers, beside their margins (claims/scope.h). Closed forms where there are any; where a bound is a
+// picture's, our tracer renders both scenes with the same samples and the tiles are compared.
 #pragma once
 
 #include <functional>
@@ -28,8 +28,8 @@ struct ScopeRequest {
 /// but for what is set.
 struct ScopeRay {
     double outer_mm, wall_mm, index, impact_mm;
-    double unpolarised, polarised; ///< share of light
-    double absorbed;               ///< share of what would arrive
+    double unpolarised, polarised;                      ///< share of light
+    double absorbed;                                    ///< share of what would arrive
     double turn_rad, turn_least_rad, turn_greatest_rad; ///< and over the visible range
 };
 

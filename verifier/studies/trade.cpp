@@ -145,7 +145,8 @@ private:
     }
 
     void say_reference(double share) const {
-        if (request_.on_progress) request_.on_progress(request_.witnesses.front().name, 0, fmt::format("reference {:.0f} %", 100 * share));
+        if (request_.on_progress)
+            request_.on_progress(request_.witnesses.front().name, 0, fmt::format("reference {:.0f} %", 100 * share));
     }
 
     std::uint64_t seed_of(std::uint64_t stage, int run) const {
@@ -163,10 +164,9 @@ private:
                 const Setting &setting = m.point.setting;
                 const auto tell = [&](double share) {
                     if (request_.on_progress)
-                        request_.on_progress(
-                            w.name, from + (to - from) * (done[w.name] + share) / whole[w.name],
-                            fmt::format("{} run {} of {}: {}", label, run + 1, request_.runs,
-                                        describe(setting, w, request_.scene)));
+                        request_.on_progress(w.name, from + (to - from) * (done[w.name] + share) / whole[w.name],
+                                             fmt::format("{} run {} of {}: {}", label, run + 1, request_.runs,
+                                                         describe(setting, w, request_.scene)));
                 };
                 tell(0);
                 RenderOptions options;
@@ -176,8 +176,7 @@ private:
                 options.tracer = setting.tracer;
                 const std::uint64_t seed = seed_of(stage, run);
                 Rendered r = render(w, job_of(setting, request_.scene, {seed}, request_.threads), options);
-                RunCost cost{r.record.own_cpu_seconds, r.record.cpu_seconds, r.record.seconds,
-                             r.record.peak_memory_mb};
+                RunCost cost{r.record.own_cpu_seconds, r.record.cpu_seconds, r.record.seconds, r.record.peak_memory_mb};
                 if (w.is_tracer() && request_.tracer_process) {
                     cost = request_.tracer_process(setting, seed);
                     cost.own_cpu_s = r.record.own_cpu_seconds;
@@ -262,9 +261,8 @@ private:
 
         for (const std::size_t i : s.rows) {
             const TradeRow &row = result_.rows[i];
-            auto known = std::ranges::find_if(s.model.systems, [&](const SystemModel &m) {
-                return m.setting.same_system(row.knobs);
-            });
+            auto known = std::ranges::find_if(s.model.systems,
+                                              [&](const SystemModel &m) { return m.setting.same_system(row.knobs); });
             if (known != s.model.systems.end() && known->setting.samples >= row.knobs.samples) continue;
             SystemModel system;
             system.setting = row.knobs;
@@ -281,8 +279,8 @@ private:
         result_.laws.push_back({s.witness->name, s.model.noise, offset_in_words(s)});
     }
 
-    /// What a process takes beside rendering: the mean over all settings with the same meshes, for it does not depend on
-    /// the others, and its noise is not to choose between them.
+    /// What a process takes beside rendering: the mean over all settings with the same meshes, for it does not depend
+    /// on the others, and its noise is not to choose between them.
     double start_s(const Studied &s, double surface_mm) const {
         double sum = 0, count = 0;
         for (const std::size_t i : s.rows) {
@@ -332,7 +330,8 @@ private:
                 asking.push_back(&q);
             }
             if (fresh.empty()) break;
-            measure_in_turn(fresh, 100 + round, "fresh seeds,", 0.7 + 0.07 * double(round), 0.77 + 0.07 * double(round));
+            measure_in_turn(fresh, 100 + round, "fresh seeds,", 0.7 + 0.07 * double(round),
+                            0.77 + 0.07 * double(round));
             for (std::size_t k = 0; k < fresh.size(); ++k) judge(*asking[k], fresh[k]);
         }
         for (Quest &q : quests) {
@@ -348,10 +347,10 @@ private:
         const auto &systems = q.studied->model.systems;
         const auto best = std::ranges::min_element(systems, {}, &SystemModel::bias2);
         q.choice.predicted = std::sqrt(best->bias2);
-        q.choice.note = fmt::format("no setting of the sweep can: {} has a systematic error of {:.2g} that no number of "
-                                    "samples removes; a finer setting than those swept would be needed",
-                                    describe(best->setting, *q.studied->witness, request_.scene, false),
-                                    q.choice.predicted);
+        q.choice.note =
+            fmt::format("no setting of the sweep can: {} has a systematic error of {:.2g} that no number of "
+                        "samples removes; a finer setting than those swept would be needed",
+                        describe(best->setting, *q.studied->witness, request_.scene, false), q.choice.predicted);
     }
 
     void fill(Quest &q, const Candidate &c) const {

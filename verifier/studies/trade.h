@@ -47,7 +47,7 @@ struct TradeRow {
     RunCost cost;              ///< mean over the runs
     double own_cpu_spread_s = 0;
     ErrorSplit error;
-    double quantisation = 0; ///< relative RMS through the picture's number format, by computation
+    double quantisation = 0;          ///< relative RMS through the picture's number format, by computation
     std::optional<Square> difference; ///< from the same seeds at `difference_from`: what the knob does
     std::string difference_from;
     bool on_front = false;         ///< of error over own seconds
@@ -62,19 +62,19 @@ struct TradeChoice {
     double tolerance = 0;
     std::string setting; ///< in words; empty: none
     int samples_per_pixel = 0;
-    RunCost cost;            ///< measured on fresh seeds, or predicted
-    double predicted = 0;    ///< relative RMS error
-    bool rendered = false;   ///< with fresh seeds
-    bool met = false;        ///< measured within the tolerance
-    Square measured;         ///< square of the error on fresh seeds
-    double bias = 0;         ///< relative RMS, of those runs
-    int tried = 0;           ///< settings rendered for it
-    std::string note;        ///< why not, how far it got, what would be needed
+    RunCost cost;          ///< measured on fresh seeds, or predicted
+    double predicted = 0;  ///< relative RMS error
+    bool rendered = false; ///< with fresh seeds
+    bool met = false;      ///< measured within the tolerance
+    Square measured;       ///< square of the error on fresh seeds
+    double bias = 0;       ///< relative RMS, of those runs
+    int tried = 0;         ///< settings rendered for it
+    std::string note;      ///< why not, how far it got, what would be needed
 };
 
 struct TradeLaw {
     std::string witness;
-    NoiseLaw noise; ///< by RenderJob's samples
+    NoiseLaw noise;   ///< by RenderJob's samples
     std::string bias; ///< the systematic offset in words
 };
 

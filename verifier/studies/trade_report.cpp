@@ -28,7 +28,9 @@ std::string root_text(const Square &s) {
 
 std::string seconds_text(double s) { return s <= 0 ? "-" : fmt::format("{:.3g}", s); }
 
-Json to_json(const Square &s) { return {{"value", report::real(s.value)}, {"standard_error", report::real(s.standard_error)}}; }
+Json to_json(const Square &s) {
+    return {{"value", report::real(s.value)}, {"standard_error", report::real(s.standard_error)}};
+}
 Json to_json(const RunCost &c) {
     return {{"own_cpu_s", c.own_cpu_s},
             {"process_cpu_s", c.process_cpu_s},
@@ -45,7 +47,8 @@ std::string csv_field(const std::string &text) {
 
 /// The sweep's row of this knob and renderer; the first one.
 const TradeRow *row_of(const TradeResult &result, Knob knob) {
-    const auto found = std::ranges::find_if(result.rows, [&](const TradeRow &r) { return r.knob == knob && r.difference; });
+    const auto found =
+        std::ranges::find_if(result.rows, [&](const TradeRow &r) { return r.knob == knob && r.difference; });
     return found == result.rows.end() ? nullptr : &*found;
 }
 
@@ -70,14 +73,15 @@ std::vector<std::string> answers(const TradeResult &result) {
             else if (c.setting.empty())
                 all.push_back(fmt::format("{} does not meet {:g}: {}.", title, tolerance, c.note));
             else
-                all.push_back(fmt::format("{} was not seen to meet {:g}: {}. By the law: {}, {:.3g} CPU s of rendering.",
-                                          title, tolerance, c.note, c.setting, c.cost.own_cpu_s));
+                all.push_back(
+                    fmt::format("{} was not seen to meet {:g}: {}. By the law: {}, {:.3g} CPU s of rendering.", title,
+                                tolerance, c.note, c.setting, c.cost.own_cpu_s));
             if (ours && ours != &c && !c.setting.empty() && ours->cost.own_cpu_s > 0)
-                all.push_back(fmt::format("  For {:g} it takes {:.3g} times the tracer's time of rendering, {:.3g} times "
-                                          "that of whole processes{}.",
-                                          tolerance, c.cost.own_cpu_s / ours->cost.own_cpu_s,
-                                          c.cost.process_cpu_s / ours->cost.process_cpu_s,
-                                          c.met ? "" : " (predicted)"));
+                all.push_back(
+                    fmt::format("  For {:g} it takes {:.3g} times the tracer's time of rendering, {:.3g} times "
+                                "that of whole processes{}.",
+                                tolerance, c.cost.own_cpu_s / ours->cost.own_cpu_s,
+                                c.cost.process_cpu_s / ours->cost.process_cpu_s, c.met ? "" : " (predicted)"));
         }
     }
     if (const TradeRow *single = row_of(result, Knob::precision)) {
@@ -99,11 +103,14 @@ Table settings_table(const TradeResult &result) {
                  "1/(MSE s)", "front"}};
     for (const TradeRow &r : result.rows)
         table.push_back({result.title(r.witness), r.setting, seconds_text(r.cost.own_cpu_s),
-                         seconds_text(r.cost.process_cpu_s), r.cost.memory_mb > 0 ? fmt::format("{:.0f}", r.cost.memory_mb) : "-",
+                         seconds_text(r.cost.process_cpu_s),
+                         r.cost.memory_mb > 0 ? fmt::format("{:.0f}", r.cost.memory_mb) : "-",
                          fmt::format("{:.3g}", r.error.mse.root()), fmt::format("{:.2g}", r.error.variance.root()),
                          root_text(r.error.bias2), fmt::format("{:.2g}", std::sqrt(std::max(0.0, r.error.tile_mse))),
                          fmt::format("{:.2g}", r.efficiency()),
-                         r.on_front ? (r.on_process_front ? "both" : "own") : r.on_process_front ? "process" : ""});
+                         r.on_front           ? (r.on_process_front ? "both" : "own")
+                         : r.on_process_front ? "process"
+                                              : ""});
     return table;
 }
 
@@ -117,9 +124,10 @@ Table parts_table(const TradeResult &result) {
 }
 
 std::string to_csv(const TradeResult &result) {
-    std::string out = "renderer,setting,knob,samples_per_pixel,cut_weight,surface_mm,bounces,precision,transport,"
-                      "own_cpu_s,process_cpu_s,process_wall_s,peak_memory_mb,mse,mse_se,variance,bias2,bias2_se,tile_mse,"
-                      "quantisation,difference2,difference2_se,difference_from,efficiency,front,process_front\n";
+    std::string out =
+        "renderer,setting,knob,samples_per_pixel,cut_weight,surface_mm,bounces,precision,transport,"
+        "own_cpu_s,process_cpu_s,process_wall_s,peak_memory_mb,mse,mse_se,variance,bias2,bias2_se,tile_mse,"
+        "quantisation,difference2,difference2_se,difference_from,efficiency,front,process_front\n";
     for (const TradeRow &r : result.rows) {
         const auto &k = r.knobs;
         out += fmt::format(
@@ -138,8 +146,7 @@ std::string to_csv(const TradeResult &result) {
 }
 
 Json to_json(const TradeResult &result) {
-    Json parameters = Json::object(), rows = Json::array(), choices = Json::array(),
-         laws = Json::array();
+    Json parameters = Json::object(), rows = Json::array(), choices = Json::array(), laws = Json::array();
     for (const auto &[name, value] : result.parameters) parameters[name] = report::valid_utf8(value);
     for (const TradeRow &r : result.rows) {
         const auto &k = r.knobs;
@@ -226,9 +233,10 @@ std::string law_text(const TradeResult &result) {
 } // namespace
 
 std::string to_text(const TradeResult &result) {
-    std::string out = fmt::format("{} ({} x {} px, {} runs of each setting, in turn)\nreference: {}, itself good to {:.1e}\n\n{}\n",
-                                  report::one_line(result.scene), result.width_px, result.height_px, result.runs,
-                                  result.reference, result.reference_error, markdown(settings_table(result)));
+    std::string out =
+        fmt::format("{} ({} x {} px, {} runs of each setting, in turn)\nreference: {}, itself good to {:.1e}\n\n{}\n",
+                    report::one_line(result.scene), result.width_px, result.height_px, result.runs, result.reference,
+                    result.reference_error, markdown(settings_table(result)));
     if (const Table parts = parts_table(result); parts.size() > 1) out += markdown(parts) + "\n";
     out += law_text(result) + "\n";
     for (const std::string &line : answers(result)) out += line + "\n";
@@ -256,9 +264,10 @@ std::string to_markdown(const TradeResult &result) {
         "both.\n",
         result.mean_radiance, result.runs);
     if (const Table parts = parts_table(result); parts.size() > 1)
-        out += "\n## What each knob does\n\n" + markdown(parts) +
-               "\nThe same seeds with another value of one knob: the RMS of the mean difference, with what noise adds to it "
-               "taken off. *quantisation*: of the picture's number format, by computation.\n";
+        out +=
+            "\n## What each knob does\n\n" + markdown(parts) +
+            "\nThe same seeds with another value of one knob: the RMS of the mean difference, with what noise adds to it "
+            "taken off. *quantisation*: of the picture's number format, by computation.\n";
     out += "\n## Noise and offsets\n\n" + law_text(result);
     for (const std::string &line : result.notes) out += "\n" + line + "\n";
     return out;

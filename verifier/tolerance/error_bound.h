@@ -3,14 +3,16 @@
 // picture that is handed out, which differs from its expectation the more, the fewer pixels carry it.
 //
 // Without a reference only the spread of K independent parts is known. Let v_p be the variance of their mean in pixel p
-// (its channels taken as wholly dependent: they share their samples). The realised square error is a sum of v_p chi^2_1,
-// which is close to chi^2 with nu = (sum v_p)^2 / sum v_p^2 degrees of freedom (Satterthwaite 1946); its estimate by the
-// spread is independent of it and has (K - 1) nu. Their ratio follows F(nu, (K - 1) nu). The spread in place of v_p makes
-// nu too small by up to (K + 1) / (K - 1), and so the bound too large, which outweighs what the few parts do not know of
-// it. Range: samples of pixels drawn independently of each other, as our tracer's are; POV-Ray's are not.
+// (its channels taken as wholly dependent: they share their samples). The realised square error is a sum of v_p
+// chi^2_1, which is close to chi^2 with nu = (sum v_p)^2 / sum v_p^2 degrees of freedom (Satterthwaite 1946); its
+// estimate by the spread is independent of it and has (K - 1) nu. Their ratio follows F(nu, (K - 1) nu). The spread in
+// place of v_p makes nu too small by up to (K + 1) / (K - 1), and so the bound too large, which outweighs what the few
+// parts do not know of it. Range: samples of pixels drawn independently of each other, as our tracer's are; POV-Ray's
+// are not.
 //
 // With a reference R, itself the mean of parts, the error E = M - T is seen as X = M - R = E - r:
-// |E|^2 = |X|^2 + 2 <X, r> + |r|^2. Of the noise r of R its spread tells how large both may be, by Student's t and by F.
+// |E|^2 = |X|^2 + 2 <X, r> + |r|^2. Of the noise r of R its spread tells how large both may be, by Student's t and by
+// F.
 //
 #pragma once
 

@@ -73,8 +73,8 @@ std::string describe(const Setting &s, const Witness &witness, const Scene &scen
     std::vector<std::string> parts;
     if (with_samples) {
         // As the renderer itself counts them.
-        int samples = witness.adapter ? for_renderer(*witness.adapter, job_of(s, scene, {1}, 0)).samples_per_pixel
-                                      : s.samples;
+        int samples =
+            witness.adapter ? for_renderer(*witness.adapter, job_of(s, scene, {1}, 0)).samples_per_pixel : s.samples;
         parts.push_back(fmt::format("{} sample{}", samples, samples == 1 ? "" : "s"));
     }
     if (needed.glass && needed.ray_tree && cuts_trees(witness)) {
@@ -84,7 +84,8 @@ std::string describe(const Setting &s, const Witness &witness, const Scene &scen
             parts.push_back(fmt::format("cut {:g}", s.cut_weight));
     }
     if (witness.is_tracer()) parts.push_back(s.tracer.precision == Precision::single_precision ? "float" : "double");
-    if (needed.glass && meshes_spheres(witness)) parts.push_back(fmt::format("mesh level {}", level_of(scene, s.surface_mm)));
+    if (needed.glass && meshes_spheres(witness))
+        parts.push_back(fmt::format("mesh level {}", level_of(scene, s.surface_mm)));
     if (needed.glass && counts_bounces(witness)) parts.push_back(fmt::format("{} bounces", s.bounces.value_or(256)));
     if (parts.empty()) parts.push_back("as it is");
     return fmt::format("{}", fmt::join(parts, ", "));

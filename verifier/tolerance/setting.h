@@ -16,9 +16,9 @@
 namespace threefold {
 
 struct Setting {
-    int samples = 16;            ///< a pixel, as RenderJob takes them
-    double cut_weight = 1e-6;    ///< end of a ray tree, where a renderer follows one
-    double surface_mm = 1e-3;    ///< of meshed glass
+    int samples = 16;             ///< a pixel, as RenderJob takes them
+    double cut_weight = 1e-6;     ///< end of a ray tree, where a renderer follows one
+    double surface_mm = 1e-3;     ///< of meshed glass
     std::optional<int> bounces{}; ///< where a renderer counts them; empty: as deep as it can
     TracerSettings tracer{};
 

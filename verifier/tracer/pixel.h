@@ -120,8 +120,8 @@ private:
         return all;
     }
 
-    /// By where the pixel's middle looks: for every sample of the pixel, so that the choice does not depend on where the
-    /// samples lie.
+    /// By where the pixel's middle looks: for every sample of the pixel, so that the choice does not depend on where
+    /// the samples lie.
     bool sees_no_glass(int column, int row) const {
         const Ray middle = film_.ray(pixel_sample(camera_, column, row) + replicate_.film_offset_px);
         for (const Surroundings &orb : surroundings_) {
