@@ -43,13 +43,17 @@ TEST(SecondLook, IsNotTakenWhereNothingIsOpenOrNoNumberOfReplicatesWouldDo) {
     const Row decided = row_at({1, 1.01, 0.99, 1.02, 0.98}, first_look);
     ASSERT_EQ(decided.verdict, Verdict::holds);
     EXPECT_EQ(replicates_for_second_look("w", 5, {decided}), 0);
-    const Row hopeless = row_at({1.2, 0.2, 2.2, 1.1, 1.3001}, first_look);
+    const Row hopeless = row_at({1.2, -0.8, 3.2, 1.1, 1.3001}, first_look);
     ASSERT_EQ(hopeless.verdict, Verdict::undecided);
     EXPECT_EQ(replicates_for_second_look("w", 5, {hopeless}), 0);
     const Row open = row_at({1, 1.3, 0.9, 1.02, 0.7}, first_look);
     ASSERT_EQ(open.verdict, Verdict::undecided);
     EXPECT_GT(replicates_for_second_look("w", 5, {open}), 5);
     EXPECT_EQ(replicates_for_second_look("another", 5, {open}), 0);
+    // At the edge by its mean, but by less than that is known to.
+    const Row unlucky = row_at({1.25, 1.1, 1.31, 1.12, 1.2}, first_look);
+    ASSERT_EQ(unlucky.verdict, Verdict::undecided);
+    EXPECT_GT(replicates_for_second_look("w", 5, {unlucky}), 5);
 }
 
 /// The first look leaves brackets open that lie so near to what a sharp eye resolves.

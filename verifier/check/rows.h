@@ -31,7 +31,8 @@ std::vector<Row> judged_rows(const Experiment &e, const std::vector<Testimony> &
                              const std::vector<Testimony> &of_partner, double level);
 
 /// Of a witness's numbers that are undecided: how many replicates the second look should have in all; 0 where none of
-/// them is worth it.
+/// them is worth it: where even the greatest number would not do, were the true mean a standard error off to the good
+/// side.
 int replicates_for_second_look(const std::string &witness, int replicates, const std::vector<Row> &rows);
 
 } // namespace threefold
