@@ -357,8 +357,7 @@ Claim claim_dark_layer() {
     Claim claim;
     claim.name = "dark-layer";
     claim.statement = "Before a robe that ends near the orb, the totally reflecting rim of a thick wall is a dark "
-                      "layer: it shows the "
-                      "dim surroundings instead of the robe.";
+                      "layer: it shows the dim surroundings instead of the robe.";
     // The rim of the thick wall, twice the run's own, and that of the wall itself.
     const auto walls = [](const ClaimContext &context) {
         const optics::Orb<double> orb = orb_of(context.experiment("", "", "dark-layer", {}, {}).scene).optics;

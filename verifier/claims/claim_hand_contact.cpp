@@ -173,8 +173,8 @@ Claim claim_hand_contact() {
     };
     claim.notes = [](const ClaimContext &context) {
         std::vector<std::string> notes{
-            "Nothing is rendered for this claim: the distance between the hand's triangles "
-            "and the sphere is exact, and is measured in the scene as each renderer gets it."};
+            "Nothing is rendered for this claim: the distance between the hand's triangles and the sphere is exact, "
+            "and is measured in the scene as each renderer gets it."};
         const Hold hold = hold_of(context);
         for (const Flip &flip : flips_of(hold))
             if (!flip.drop_mm)

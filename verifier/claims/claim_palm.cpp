@@ -252,8 +252,7 @@ Claim claim_palm() {
         switch (verdict) {
         case Verdict::holds:
             return "Through the hollow orb most of the palm is seen where it is. The solid orb shows other things in "
-                   "its "
-                   "place.";
+                   "its place.";
         case Verdict::fails:
             return "Some renderer, or exact optics itself, contradicts the statement for this scene.";
         case Verdict::undecided:
@@ -271,9 +270,8 @@ Claim claim_palm() {
         if (!exact.can_be_told()) return std::vector<std::string>{"Hardly any of the hand lies behind the orb."};
         return std::vector{fmt::format(
             "The palm is what would be seen of the hand behind the orb if the orb bent no ray. By exact optics the "
-            "solid "
-            "orb shows {:.1f} % of it in its place, the hollow one {:.1f} %; the rest of it lies behind the "
-            "rim, where light is totally reflected, and beside. Shown or hidden is more or less than half.",
+            "solid orb shows {:.1f} % of it in its place, the hollow one {:.1f} %; the rest of it lies behind the rim, "
+            "where light is totally reflected, and beside. Shown or hidden is more or less than half.",
             100 * exact.share_in_place(orb_of(solid.scene)), 100 * exact.share_in_place(orb_of(hollow.scene)))};
     };
     claim.flips = [](const ClaimContext &context) {

@@ -131,8 +131,7 @@ Claim claim_shift() {
             "moved there."};
         if (!shift_flip(context))
             notes.push_back("No shift within half the orb's radius, to either side, takes the break across what the "
-                            "eye resolves: there "
-                            "is no flip point.");
+                            "eye resolves: there is no flip point.");
         return notes;
     };
     claim.flips = [](const ClaimContext &context) {

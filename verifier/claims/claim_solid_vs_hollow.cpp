@@ -362,8 +362,7 @@ Claim claim_solid_vs_hollow() {
         switch (verdict) {
         case Verdict::holds:
             return "Seen through the solid orb the robe stands on its head; through the hollow orb it stays upright "
-                   "and "
-                   "nearly in place. Every renderer shows it, and each agrees with exact optics.";
+                   "and nearly in place. Every renderer shows it, and each agrees with exact optics.";
         case Verdict::fails:
             return "Some renderer, or exact optics itself, contradicts the statement for this scene.";
         case Verdict::undecided:

@@ -352,8 +352,8 @@ std::vector<std::string> notes(const ClaimContext &context) {
             continue;
         }
         notes.push_back(fmt::format("Through the {} orb a line beside the middle one jumps by {:.4g} times its "
-                                    "distance from it: here {:.4g} mm "
-                                    "on its plane, {:.3g} minutes of arc, {:.3g} pixels of the scene's picture.",
+                                    "distance from it: here {:.4g} mm on its plane, {:.3g} minutes of arc, {:.3g} "
+                                    "pixels of the scene's picture.",
                                     kind, std::abs(jump / asked.lines.front().line.apart_mm), std::abs(jump),
                                     asked.arcmin(camera, jump), std::abs(jump) / asked.picture_px_mm));
     }
@@ -361,8 +361,7 @@ std::vector<std::string> notes(const ClaimContext &context) {
     notes.push_back(fmt::format(
         "A jump is read between the circle at {:g} of the radius within which rays go through ({:g} for the bent line, "
         "which only so near to the boundary is seen beyond its bend) and the circle at {:g} of the orb's radius. "
-        "Nearer "
-        "to the boundary it changes ever more steeply.",
+        "Nearer to the boundary it changes ever more steeply.",
         inside_share, bent.view.circles.inside_mm / bent.view.orb.clear_radius_mm(), outside_share));
     for (const Flip &flip : flips_of(context))
         if (!flip.value)

@@ -206,8 +206,7 @@ Claim claim_wall_limit() {
     claim.statement =
         "To an eye of a stated acuity, only a wall thinner than a limit shows neither a dark rim nor a break in a fold "
         "that is not aimed at the orb's centre; the wall of the scene (the study's: 1.3 mm) is above that limit and "
-        "shows "
-        "both.";
+        "shows both.";
     claim.experiments = [](const ClaimContext &context) {
         const Limits limits = find_limits(context);
         std::vector<Experiment> all{own_wall(context, limits),

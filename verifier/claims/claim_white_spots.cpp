@@ -210,8 +210,7 @@ Experiment spot_experiment(const ClaimContext &context, int number) {
                 {"tessellation", light ? 0 : 4 * a.surface_mm, "of the mirroring spheres"},
                 {"quantisation", light ? 400 * a.radiance_step : 0.02 * v.pixel_mm, "of the stored picture"}};
             budget.push_back(light ? BudgetItem{"resolution", light_tolerance * r.value,
-                                                "8 % of its light: by Fresnel the "
-                                                "highlights differ by far more"}
+                                                "8 % of its light: by Fresnel the highlights differ by far more"}
                                    : BudgetItem{"resolution", 0.25 * v.pixel_mm, "a quarter of a pixel"});
             rows.push_back({r.quantity, light ? "px" : "mm", Relation::equal, r.value, budget});
         }
@@ -381,8 +380,7 @@ Claim claim_white_spots() {
         switch (verdict) {
         case Verdict::holds:
             return "Small sources in the mirror directions show their highlights at the three specks, and a hollow "
-                   "glass "
-                   "orb doubles each of them: its inner surface shows a second one just beside it.";
+                   "glass orb doubles each of them: its inner surface shows a second one just beside it.";
         case Verdict::fails:
             return "Some renderer, or exact optics, puts a highlight elsewhere or gives it another brightness.";
         case Verdict::undecided:

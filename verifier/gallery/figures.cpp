@@ -58,8 +58,7 @@ std::vector<Figure> study_figures() {
         {"2", "The set-up seen from aside: relief, hand, orb and camera.", {whole("setup", 1024, 512)}},
         {"3A",
          "A solid orb. In the study it turns what lies behind it upside down, and hides the palm (claims "
-         "solid-vs-hollow, "
-         "palm).",
+         "solid-vs-hollow, palm).",
          {orb_of_painting({{"orb.kind", "solid", "solid"}}), whole("solid")}},
         {"3B",
          "A hollow orb. In the study it leaves that upright and nearly in its place.",
@@ -77,13 +76,11 @@ std::vector<Figure> study_figures() {
         {"4D", "The middle line bent outside the orb. In the study it breaks now too.", {whole("three-lines-bent")}},
         {"5C",
          "The study's thin wall: it saw the folds cross the upper right boundary with no break that one notices. What "
-         "an "
-         "eye would notice is the matter of the claim wall-limit.",
+         "an eye would notice is the matter of the claim wall-limit.",
          {boundary_of_painting({}), with("folds", {cloth})}},
         {"5D",
          "Five folds cross the boundary; four of them aim at the orb's centre, the leftmost does not. In the study "
-         "that one "
-         "breaks (claim folds).",
+         "that one breaks (claim folds).",
          {with("folds", {cloth})}},
         {"6A",
          "A wall of twice the thickness. In the study a dark layer, a reflection of the surroundings, cuts the folds "

@@ -197,8 +197,7 @@ std::string to_html(const RunResult &result) {
     const bool folds = result.claims.size() > most_open;
     if (folds)
         out += "<p class=\"all-folds\" hidden><button type=\"button\" data-folds=\"open\">Open everything</button> "
-               "<button "
-               "type=\"button\" data-folds=\"close\">Close everything</button></p>\n";
+               "<button type=\"button\" data-folds=\"close\">Close everything</button></p>\n";
     for (const ClaimGroup &group : groups) add_group(out, result, group, folds);
     add_record(out, result);
     out += "</main>\n";

@@ -105,14 +105,10 @@ void add_render(Out &out, const RunResult &result, const RenderRecord &r) {
 void add_renders(Out &out, const RunResult &result) {
     if (result.renders.empty()) return;
     out += "<h3>Renders</h3>\n<p class=\"quiet\">Folders are relative to this page. Samples: replicates × samples a "
-           "pixel. Left "
-           "out: the weight of the branches of the ray tree that were cut.</p>\n<div class=\"scroll\"><table "
-           "class=\"numbers "
-           "renders\"><thead><tr><th scope=\"col\">Experiment</th><th scope=\"col\">Picture</th><th "
-           "scope=\"col\">Samples</th><th "
-           "scope=\"col\">Time</th><th scope=\"col\">Processor</th><th scope=\"col\">Memory</th><th scope=\"col\">Left "
-           "out</th>"
-           "</tr></thead>\n";
+           "pixel. Left out: the weight of the branches of the ray tree that were cut.</p>\n<div "
+           "class=\"scroll\"><table class=\"numbers renders\"><thead><tr><th scope=\"col\">Experiment</th><th "
+           "scope=\"col\">Picture</th><th scope=\"col\">Samples</th><th scope=\"col\">Time</th><th "
+           "scope=\"col\">Processor</th><th scope=\"col\">Memory</th><th scope=\"col\">Left out</th></tr></thead>\n";
     for (const RenderRecord &render : result.renders) add_render(out, result, render);
     out += "</table></div>\n";
 }

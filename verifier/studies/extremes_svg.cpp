@@ -134,8 +134,8 @@ std::string to_svg(const ExtremesResult &result) {
         "height=\"6\" fill=\"#b4bfc9\"/></pattern></defs>\n<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n",
         width, height, html_text(conclusion(result)), style);
     fmt::format_to(std::back_inserter(out),
-                   "<text class=\"head\" x=\"{0}\" y=\"44\">Where each renderer breaks, and "
-                   "whether it says so</text>\n<text class=\"sub\" x=\"{0}\" y=\"66\">{1}</text>\n",
+                   "<text class=\"head\" x=\"{0}\" y=\"44\">Where each renderer breaks, and whether it says "
+                   "so</text>\n<text class=\"sub\" x=\"{0}\" y=\"66\">{1}</text>\n",
                    margin, html_text(conclusion(result)));
     add_key(out, margin, 82);
     for (std::size_t i = 0; i < result.sweeps.size(); ++i) {

@@ -58,11 +58,9 @@ std::string named(const ScopeResult &result, const ClaimScope &scope) {
 std::string ray_text(const ScopeRay &r) {
     return fmt::format(
         "One ray, straight through a hollow orb of {:g} mm with a wall of {:g} mm and an index of {:g}, {:g} mm from "
-        "the "
-        "axis: with polarisation carried {:.3f} of its light arrives, where renderers, which take light as unpolarised "
-        "anew at every surface, say {:.3f}: {:.1f} % more. The glass absorbs {:.2g} % of it. It is turned by {:.2f} "
-        "mrad "
-        "outwards, over the visible range by {:.2f} to {:.2f}.",
+        "the axis: with polarisation carried {:.3f} of its light arrives, where renderers, which take light as "
+        "unpolarised anew at every surface, say {:.3f}: {:.1f} % more. The glass absorbs {:.2g} % of it. It is turned "
+        "by {:.2f} mrad outwards, over the visible range by {:.2f} to {:.2f}.",
         r.outer_mm, r.wall_mm, r.index, r.impact_mm, r.polarised, r.unpolarised,
         100 * (r.polarised / r.unpolarised - 1), 100 * r.absorbed, -1e3 * r.turn_rad, -1e3 * r.turn_greatest_rad,
         -1e3 * r.turn_least_rad);

@@ -106,8 +106,7 @@ void refuse_too_far_an_eye_for_embree(const Scene &scene) {
     if (spacing * distance_mm > greatest_px * pixel_mm)
         throw Error(Exit::bad_data,
                     fmt::format("the tracer meets meshes, and many rectangles, from an eye in single precision: {:.3g} "
-                                "mm away that is {:.2g} "
-                                "of a pixel, {:g} at most",
+                                "mm away that is {:.2g} of a pixel, {:g} at most",
                                 distance_mm, spacing * distance_mm / pixel_mm, greatest_px),
                     "bring the eye nearer, or make the field of view wider or the pixels fewer");
 }
