@@ -121,6 +121,8 @@ TEST(Plan, ClaimsAreDecidedFarFromTheStudysValues) {
              {"three-lines", {{"orb.radius_mm", "75"}}, Verdict::holds},
              {"three-lines", {{"orb.radius_mm", "90"}}, Verdict::holds},
              {"three-lines", {{"orb.wall_mm", "0.5"}}, Verdict::holds},
+             // The robe is wider than what the orb hides of it.
+             {"dark-layer", {{"orb.radius_mm", "76.1"}, {"card.distance_mm", "290"}}, Verdict::holds},
          }) {
         const ClaimResult result = check(request(folder, {far.claim}, far.values)).result.claims.back();
         EXPECT_EQ(result.verdict, far.verdict)

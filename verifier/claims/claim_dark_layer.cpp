@@ -133,9 +133,21 @@ std::vector<Assignment> plain(const std::vector<Assignment> &more) {
     return all;
 }
 
+/// The study's robe, or a wider one where the orb would hide that: unless asked otherwise, it ends beside the orb.
+Assignment robe_beside(const ClaimContext &context) {
+    constexpr double robe_over_hidden = 1.14;
+    const Scene study = context.experiment("", "", "dark-layer", {}, {}).scene;
+    const OrbInScene orb = orb_of(study);
+    const Quad &card = card_of(study);
+    const double eye = study.camera.eye_mm.z - orb.centre_mm.z, radius = orb.optics.outer_mm;
+    const double hidden =
+        radius / std::sqrt((eye - radius) * (eye + radius)) * (study.camera.eye_mm.z - card.centre_mm.z);
+    return assign("card.half_width_mm", std::max(glm::length(card.half_u_mm), robe_over_hidden * hidden));
+}
+
 Experiment base(const ClaimContext &context, const std::string &name, const std::string &title,
                 const std::vector<Assignment> &more) {
-    Experiment e = context.experiment(name, title, "dark-layer", {}, plain(more));
+    Experiment e = context.experiment(name, title, "dark-layer", {robe_beside(context)}, plain(more));
     const OrbInScene orb = orb_of(e.scene);
     look_at_the_rim(e.scene.camera, orb);
     e.sampling = Sampling::pixel_centres;
