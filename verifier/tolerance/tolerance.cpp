@@ -24,8 +24,8 @@ constexpr double significance = 0.05 / most_attempts;
 /// Few pixels tell little of their own noise: more parts do, and cost nothing there.
 constexpr std::size_t few_pixels = 400;
 constexpr std::uint64_t parts_of_few = 8;
-constexpr int least_samples_of_few =
-    16; ///< of a part: what is narrower than a pixel's samples is not seen in their spread
+/// Of each of these parts: what is narrower than a pixel's samples is not seen in their spread.
+constexpr int least_samples_of_few = 16;
 /// Of the square of the tolerance: the rest is for what a pilot does not know.
 constexpr double share_of_tolerance = 0.8;
 
@@ -49,7 +49,7 @@ public:
         say(0, "pilot");
         std::vector<Setting> systems = systems_of(witness_, scene_);
         if (witness_.is_tracer()) {
-            // The mean radiance alone is asked here.
+            // The mean radiance alone is asked here, roughly: each picture tells it better.
             Setting rough = systems.front();
             rough.samples = 1;
             const Rendered first = take(rough, 90);
@@ -167,6 +167,8 @@ private:
         out.setting = setting;
         out.rendered = take(setting, attempt);
         std::vector<Image> &pictures = out.rendered.images;
+        if (!reference_) mean_ = mean_radiance(mean(pictures));
+        require_light();
         const PartsNoise noise = noise_of_parts(pictures, mean_);
         out.noise = std::sqrt(noise.square);
         widening_ = std::max(1.0, noise.widening(significance));
