@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ostream>
 #include <random>
 
 #include <fmt/format.h>
@@ -42,6 +43,10 @@ std::vector<Image> several(int count, int pixels, double sigma, double skew, std
 struct NoiseCase {
     int pixels, parts;
     double skew;
+
+    friend std::ostream &operator<<(std::ostream &out, const NoiseCase &c) {
+        return out << c.pixels << " pixels, " << c.parts << " parts, noise from one to the next times " << c.skew;
+    }
 };
 class BoundOfTheError : public testing::TestWithParam<NoiseCase> {};
 
