@@ -67,7 +67,7 @@ TEST_P(BoundOfTheError, IsNotExceededMoreOftenThanStatedByTheSpreadAlone) {
     int misses = 0, naive = 0;
     for (int k = 0; k < trials; ++k) {
         const std::vector<Image> runs = several(parts, pixels, 0.02, skew, random);
-        const PartsNoise noise = noise_of_parts(runs, radiance);
+        const PartsNoise noise = noise_of_parts(runs, mean(runs), radiance);
         const double error2 = true_square(mean(runs));
         misses += error2 > noise.square * noise.widening(chance);
         naive += error2 > noise.square;
@@ -100,7 +100,8 @@ INSTANTIATE_TEST_SUITE_P(Tolerance, BoundOfTheError,
 
 TEST(BoundOfTheError, IsThatOfTheSumWithAnOffset) {
     std::mt19937_64 random(3);
-    const PartsNoise noise = noise_of_parts(several(2, 10000, 0.02, 1, random), radiance);
+    const std::vector<Image> parts = several(2, 10000, 0.02, 1, random);
+    const PartsNoise noise = noise_of_parts(parts, mean(parts), radiance);
     const double alone = noise.upper2(0, chance), offset = 0.01;
     EXPECT_GE(noise.upper2(offset, chance), alone + offset * offset);
     EXPECT_LT(noise.upper2(offset, chance), std::pow(std::sqrt(alone) + offset, 2));

@@ -177,11 +177,17 @@ ReferencePicture exact_reference(Image picture) {
     return reference;
 }
 
+Image variance_of_mean(std::span<const Image> pictures, const Image &middle) {
+    require_runs(pictures, middle);
+    Image variance = spread_of(pictures, middle);
+    for (Rgb &pixel : variance.pixels) pixel /= static_cast<double>(pictures.size());
+    return variance;
+}
+
 ReferencePicture to_reference(const std::vector<Image> &pictures) {
     ReferencePicture reference = exact_reference(mean(pictures));
     require_runs(pictures, reference.mean);
-    reference.variance = spread_of(pictures, reference.mean);
-    for (Rgb &pixel : reference.variance.pixels) pixel /= static_cast<double>(pictures.size());
+    reference.variance = variance_of_mean(pictures, reference.mean);
     reference.error = std::sqrt(mean_radiance(reference.variance)) / reference.mean_radiance;
     reference.pictures = static_cast<int>(pictures.size());
     return reference;
@@ -257,7 +263,7 @@ Square error2_of_mean(std::span<const Image> runs, const ReferencePicture &refer
 
 double noise2_of_mean(std::span<const Image> runs, double mean) {
     const Image middle = mean_of(runs);
-    return mean_radiance(spread_of(runs, middle)) / static_cast<double>(runs.size()) / (mean * mean);
+    return mean_radiance(variance_of_mean(runs, middle)) / (mean * mean);
 }
 
 double NoiseLaw::variance(double samples) const { return factor * std::pow(samples, -rate); }

@@ -37,6 +37,9 @@ struct ReferencePicture {
     double cpu_seconds = 0;
 };
 
+/// Of the mean `middle` of at least two independent pictures, pixel by pixel.
+Image variance_of_mean(std::span<const Image> pictures, const Image &middle);
+
 /// The mean of independent pictures and its variance. Error(bad_data) for black pictures: nothing is relative to them.
 ReferencePicture to_reference(const std::vector<Image> &pictures);
 /// One that is known without noise.

@@ -59,8 +59,8 @@ struct TileComparison {
 /// Something measured or predicted, drawn on a picture. Image positions in pixels, row 0 on top.
 struct Mark {
     enum class Kind { line, arrow, circle, cross } kind = Kind::line;
-    Vec2 from_px{0},
-        to_px{0};         ///< ends of a line or arrow (its head at `to_px`); centre of a circle or cross is `from_px`
+    /// Ends of a line or arrow (its head at `to_px`); the centre of a circle or cross is `from_px`.
+    Vec2 from_px{0}, to_px{0};
     double radius_px = 0; ///< of a circle
     enum class Meaning { expected, measured } meaning = Meaning::measured;
     std::string label; ///< may be empty; one label a group of marks is enough

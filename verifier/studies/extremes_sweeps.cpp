@@ -14,8 +14,9 @@ namespace threefold {
 namespace {
 
 constexpr double radius_mm = 68, eye_mm = 900, card_mm = 250, card_half_mm = 544, index = 1.51714, wall = 0.02;
-constexpr int side_px = 13;      // odd: the middle pixel looks along the axis, where the impact is 0
-constexpr int light_side_px = 5; // a light probe is the same all over
+constexpr int side_px = 13;            // odd: the middle pixel looks along the axis, where the impact is 0
+constexpr double film_over_orb = 1.16; // of the widths, where a camera is fitted to the orb
+constexpr int light_side_px = 5;       // a light probe is the same all over
 
 Glass coated(double n = index) { return {n, 1, Coating::antireflective}; }
 
@@ -87,7 +88,7 @@ void look_past(Scene &scene, double fov_deg) {
     c.target_mm = c.eye_mm + eye_mm * Vec3(tangent / secant, 0, -1 / secant);
     // Upright the orb is as tall as the crop but for a margin; sideways the film stretches it more.
     const double half_orb = secant * radius_mm / std::sqrt(eye_mm * eye_mm - radius_mm * radius_mm);
-    const double pixel = 2 * half_orb * 1.16 / side_px;
+    const double pixel = 2 * half_orb * film_over_orb / side_px;
     c.width_px = std::max(side_px, 2 * static_cast<int>(std::ceil(half_width / pixel)));
     c.height_px = side_px;
     const int middle = static_cast<int>(0.1 * c.width_px);
@@ -198,7 +199,7 @@ std::vector<ExtremeSweep> view_sweeps() {
                   scene.camera.eye_mm = {0, 0, radius_mm * (1 + gap)};
                   scene.camera.target_mm = {0, 0, -card_mm};
                   scene.camera.horizontal_fov_deg =
-                      gap >= 1 ? 2 * std::atan(1.16 / (1 + gap)) * 180 / std::numbers::pi : 80;
+                      gap >= 1 ? 2 * std::atan(film_over_orb / (1 + gap)) * 180 / std::numbers::pi : 80;
                   return scene;
               });
     near.points[near.points.size() - 3].label = "in wall";
@@ -209,7 +210,7 @@ std::vector<ExtremeSweep> view_sweeps() {
                         [](double d) {
                             Scene scene = before_card(shell(wall));
                             scene.camera.eye_mm = {0, 0, radius_mm * d};
-                            scene.camera.horizontal_fov_deg = 2 * std::atan(1.16 / d) * 180 / std::numbers::pi;
+                            scene.camera.horizontal_fov_deg = 2 * std::atan(film_over_orb / d) * 180 / std::numbers::pi;
                             return scene;
                         }));
     all.push_back(sweep("view", "Field of view", "degrees",

@@ -8,8 +8,6 @@
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 
-#include "scenes/error.h"
-
 namespace threefold {
 
 namespace {
@@ -38,25 +36,13 @@ double ratio_of_squares(double freedom, int parts, double significance) {
 
 } // namespace
 
-PartsNoise noise_of_parts(std::span<const Image> parts, double mean_radiance) {
-    if (parts.size() < 2) throw Error(Exit::internal, "noise is told by two parts at least");
-    const auto k = static_cast<double>(parts.size());
-    const std::size_t pixels = parts.front().pixels.size();
+PartsNoise noise_of_parts(std::span<const Image> parts, const Image &middle, double mean_radiance) {
     Satterthwaite variances;
-    for (std::size_t i = 0; i < pixels; ++i) {
-        Rgb sum(0), squares(0);
-        for (const Image &part : parts) sum += part.pixels[i];
-        const Rgb middle = sum / k;
-        for (const Image &part : parts) {
-            const Rgb d = part.pixels[i] - middle;
-            squares += d * d;
-        }
-        variances.add((squares.r + squares.g + squares.b) / (k * (k - 1)));
-    }
+    for (const Rgb &v : variance_of_mean(parts, middle).pixels) variances.add(v.r + v.g + v.b);
     PartsNoise noise;
     noise.parts = static_cast<int>(parts.size());
-    noise.pixels = pixels;
-    noise.square = variances.sum() / (3 * static_cast<double>(pixels)) / (mean_radiance * mean_radiance);
+    noise.pixels = middle.pixels.size();
+    noise.square = variances.sum() / (3 * static_cast<double>(noise.pixels)) / (mean_radiance * mean_radiance);
     noise.freedom = variances.freedom();
     return noise;
 }

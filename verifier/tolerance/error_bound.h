@@ -11,9 +11,7 @@
 // are not.
 //
 // With a reference R, itself the mean of parts, the error E = M - T is seen as X = M - R = E - r:
-// |E|^2 = |X|^2 + 2 <X, r> + |r|^2. Of the noise r of R its spread tells how large both may be, by Student's t and by
-// F.
-//
+// |E|^2 = |X|^2 + 2 <X, r> + |r|^2. How large both terms of R's noise r may be, its spread tells: by Student's t, by F.
 #pragma once
 
 #include <span>
@@ -34,7 +32,8 @@ struct PartsNoise {
     /// Bound of the square error with a further error of at most `offset` (relative) in every pixel.
     double upper2(double offset, double significance) const;
 };
-PartsNoise noise_of_parts(std::span<const Image> parts, double mean_radiance);
+/// `middle`: their mean.
+PartsNoise noise_of_parts(std::span<const Image> parts, const Image &middle, double mean_radiance);
 
 /// Bound of the relative square error of a picture, exceeded with the chance `significance`.
 double error2_upper(const Image &picture, const ReferencePicture &reference, double significance);

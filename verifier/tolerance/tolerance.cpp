@@ -128,7 +128,7 @@ private:
 
     /// One point of the law: of the relative variance of one part.
     NoisePoint point_of(const Setting &setting, const std::vector<Image> &pictures) {
-        const PartsNoise noise = noise_of_parts(pictures, mean_);
+        const PartsNoise noise = noise_of_parts(pictures, mean(pictures), mean_);
         widening_ = std::max(1.0, noise.widening(significance));
         return {double(setting.samples), static_cast<double>(parts_) * noise.square};
     }
@@ -167,15 +167,18 @@ private:
         out.setting = setting;
         out.rendered = take(setting, attempt);
         std::vector<Image> &pictures = out.rendered.images;
-        if (!reference_) mean_ = mean_radiance(mean(pictures));
-        require_light();
-        const PartsNoise noise = noise_of_parts(pictures, mean_);
+        Image middle = mean(pictures);
+        if (!reference_) {
+            mean_ = mean_radiance(middle);
+            require_light();
+        }
+        const PartsNoise noise = noise_of_parts(pictures, middle, mean_);
         out.noise = std::sqrt(noise.square);
         widening_ = std::max(1.0, noise.widening(significance));
         if (reference_) {
-            const Square error2 = error2_of_mean(pictures, *reference_);
+            const Square error2 = error2_of_mean({&middle, 1}, *reference_);
             out.error = error2.root();
-            out.error_upper = std::sqrt(error2_upper(mean(pictures), *reference_, significance));
+            out.error_upper = std::sqrt(error2_upper(middle, *reference_, significance));
             out.systematic = std::sqrt(std::max(0.0, error2.value - noise.square));
             out.reference = reference_->kind;
         } else {
@@ -186,7 +189,7 @@ private:
         }
         out.met = out.error_upper <= request_.tolerance;
         out.description = fmt::format("{} pictures of {}", parts_, describe(setting, witness_, scene_));
-        pictures = {mean(pictures)};
+        pictures = {std::move(middle)};
         return out;
     }
 
