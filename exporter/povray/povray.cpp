@@ -88,7 +88,6 @@ std::vector<std::string> arguments(const RenderJob &job, int supersampling, std:
         "Display=off",
         "Pause_When_Done=off",
     };
-    if (job.threads > 0) all.push_back(fmt::format("Work_Threads={}", job.threads));
     return all;
 }
 
@@ -162,6 +161,7 @@ Exported compile_povray(const RenderJob &job) {
     exported.pictures_per_replicate = grid.pictures;
     const std::size_t pictures = job.replicates.size() * static_cast<std::size_t>(exported.pictures_per_replicate);
     exported.arguments = arguments(job, exported.supersampling, pictures);
+    if (job.threads > 0) exported.thread_arguments = {fmt::format("Work_Threads={}", job.threads)};
     exported.outputs = output_names(pictures);
     exported.accuracy.radiance_step = 0.5 / white / writer.radiance_scale;
     exported.accuracy.rounding_mm = std::max(writer.mesh_rounding_mm, rounding_mm(writer.space));

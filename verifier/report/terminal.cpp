@@ -12,6 +12,7 @@
 #include "verifier/report/flip_words.h"
 #include "verifier/report/numbers.h"
 #include "verifier/report/text.h"
+#include "verifier/report/time_table.h"
 #include "verifier/report/words.h"
 
 namespace threefold {
@@ -131,6 +132,12 @@ void add_witness(std::string &out, const WitnessRecord &witness, const Painter &
 
 } // namespace
 
+std::string to_line(const ClaimResult &claim, bool colour, bool with_preset) {
+    const Painter paint{colour};
+    return fmt::format("{} {}{}  {}", mark(paint, claim.verdict), paint.bold(one_line(claim.name)),
+                       with_preset ? fmt::format(" ({})", one_line(claim.preset)) : "", one_line(claim.statement));
+}
+
 std::string to_text(const RunResult &result, bool colour, int verbosity) {
     const Painter paint{colour};
     std::string out =
@@ -144,6 +151,7 @@ std::string to_text(const RunResult &result, bool colour, int verbosity) {
     std::size_t width = 0;
     for (const ClaimResult &claim : result.claims) width = std::max(width, claim.name.size());
     for (const ClaimGroup &group : groups_of(result)) add_claim(out, result, group, paint, width, verbosity);
+    if (verbosity > 0 && !result.renders.empty()) out += "\n" + time_table(result);
     if (verbosity >= 0 && result.seconds > 0)
         out += paint.faint(fmt::format("\n{} in all, {} of it in renderers.", duration(result.seconds),
                                        duration(result.renderer_seconds))) +
