@@ -19,9 +19,8 @@ std::vector<TileComparison> compared_pictures(const Experiment &e, const std::ve
             const Testimony &a = testimonies[i], &b = testimonies[j];
             const std::vector<BudgetItem> budget =
                 e.tile_budget(a.rendered.record.accuracy, b.rendered.record.accuracy);
-            TileComparison tiles =
-                compare_tiles(a.rendered.images, b.rendered.images,
-                              {e.tile_px, total(budget), e.tiles_needed_share, e.shift_replicates, level});
+            TileComparison tiles = compare_tiles(a.rendered.images, b.rendered.images, e.tile_px, total(budget),
+                                                 e.tiles_needed_share, e.shift_replicates, level);
             tiles.experiment = e.name;
             tiles.witness = a.witness->name;
             tiles.versus = b.witness->name;
