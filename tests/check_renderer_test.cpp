@@ -3,6 +3,7 @@
 // that was killed goes on. The tests share one folder, so that what one has rendered the next finds in the cache.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <csignal>
 #include <fstream>

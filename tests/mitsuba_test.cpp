@@ -3,6 +3,7 @@
 // needed, our tracer makes them, which tries the way they take and says nothing of agreement.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <fstream>
