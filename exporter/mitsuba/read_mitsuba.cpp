@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <system_error>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The numbers behind a claim: rows, tiles, scenes.
+#include <algorithm>
 #include <iterator>
 #include <vector>
 

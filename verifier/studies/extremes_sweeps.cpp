@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verifier/studies/extremes_sweeps.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <ctime>
 #include <set>
+#include <system_error>
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
