@@ -2,6 +2,7 @@
 // What is written for POV-Ray, without running it. THREEFOLD_UPDATE_GOLDEN=1 rewrites povray_golden/*.pov.
 #include "exporter/povray/povray.h"
 
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <limits>

@@ -2,6 +2,7 @@
 // check: claims to verdicts, with a report to look at.
 #include <algorithm>
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 #include <unistd.h>
 
 #include <fmt/format.h>

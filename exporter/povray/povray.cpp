@@ -116,8 +116,9 @@ std::string head(const RenderJob &job, const povray::Space &space, double radian
                        "  max_trace_level {}\n"
                        "  adc_bailout {} // the weight below which a branch is dropped\n"
                        "}}\n",
-                       povray::quoted(job.scene.name), number(1 / space.units_per_mm), povray::vector(space.origin_mm),
-                       number(radiance_scale), std::clamp(job.most_bounces.value_or(256), 1, greatest_depth(job.scene)),
+                       povray::in_quotes(job.scene.name), number(1 / space.units_per_mm),
+                       povray::vector(space.origin_mm), number(radiance_scale),
+                       std::clamp(job.most_bounces.value_or(256), 1, greatest_depth(job.scene)),
                        number(job.cut_weight));
 }
 

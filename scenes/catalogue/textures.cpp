@@ -25,11 +25,6 @@ std::shared_ptr<const Texture> paint(int width, int height, Colour colour) {
     return texture;
 }
 
-double smooth_step(double from, double to, double x) {
-    const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
-    return t * t * (3 - 2 * t);
-}
-
 /// 1 inside |x| < half, falling to 0 over `soft`.
 double band(double x, double half, double soft) { return 1 - smooth_step(half, half + soft, std::abs(x)); }
 
@@ -41,6 +36,11 @@ double box(double x, double y, double left, double right, double bottom, double 
 Rgb mix(Rgb a, Rgb b, double t) { return a * (1 - t) + b * t; }
 
 } // namespace
+
+double smooth_step(double from, double to, double x) {
+    const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
+    return t * t * (3 - 2 * t);
+}
 
 std::shared_ptr<const Texture> robe_texture(int side) {
     return paint(side, side, [side](int column, int row) {

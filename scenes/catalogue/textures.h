@@ -9,6 +9,9 @@
 
 namespace threefold {
 
+/// 0 up to `from`, 1 beyond `to`, smooth between.
+double smooth_step(double from, double to, double x);
+
 /// A blue cloth with two crossed golden bands, a fine grid and a large letter F: it shows at a glance what is upright,
 /// inverted, mirrored or magnified. `side` texels square.
 std::shared_ptr<const Texture> robe_texture(int side);

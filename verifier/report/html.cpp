@@ -23,8 +23,6 @@ using namespace report;
 /// With more judgements than this, what holds is folded away.
 constexpr std::size_t most_open = 4;
 
-std::string plain(std::string_view text) { return html_text(one_line(text)); }
-
 void add_head(Out &out, const RunResult &result) {
     fmt::format_to(
         std::back_inserter(out),

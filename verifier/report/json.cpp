@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 #include "verifier/report/json_value.h"
 #include "verifier/report/text.h"
 #include "verifier/report/time_table.h"

@@ -93,8 +93,8 @@ void add_findings(std::string &out, const RunResult &result, const ClaimResult &
         for (const std::string &note : claim.notes) out += indent + one_line(note) + "\n";
 }
 
-void add_claim(std::string &out, const RunResult &result, const ClaimGroup &group, const Painter &paint,
-               std::size_t width, int verbosity) {
+void print_claim(std::string &out, const RunResult &result, const ClaimGroup &group, const Painter &paint,
+                 std::size_t width, int verbosity) {
     const ClaimResult &claim = group.first();
     out += fmt::format("  {} {}{}  {}\n", mark(paint, group.verdict()), paint.bold(one_line(claim.name)),
                        std::string(width - claim.name.size(), ' '), one_line(claim.statement));
@@ -114,7 +114,7 @@ void add_claim(std::string &out, const RunResult &result, const ClaimGroup &grou
     }
 }
 
-void add_witness(std::string &out, const WitnessRecord &witness, const Painter &paint) {
+void print_witness(std::string &out, const WitnessRecord &witness, const Painter &paint) {
     std::string state = !witness.present      ? "missing"
                         : !witness.calibrated ? "not calibrated"
                         : *witness.calibrated ? "calibrated"
@@ -145,12 +145,12 @@ std::string to_text(const RunResult &result, bool colour, int verbosity) {
     if (!result.summary.empty()) out += one_line(result.summary) + "\n";
     if (verbosity >= 0 && !result.witnesses.empty()) {
         out += "\n";
-        for (const WitnessRecord &witness : result.witnesses) add_witness(out, witness, paint);
+        for (const WitnessRecord &witness : result.witnesses) print_witness(out, witness, paint);
     }
     if (!result.claims.empty()) out += "\n";
     std::size_t width = 0;
     for (const ClaimResult &claim : result.claims) width = std::max(width, claim.name.size());
-    for (const ClaimGroup &group : groups_of(result)) add_claim(out, result, group, paint, width, verbosity);
+    for (const ClaimGroup &group : groups_of(result)) print_claim(out, result, group, paint, width, verbosity);
     if (verbosity > 0 && !result.renders.empty()) out += "\n" + time_table(result);
     if (verbosity >= 0 && result.seconds > 0)
         out += paint.faint(fmt::format("\n{} in all, {} of it in renderers.", duration(result.seconds),

@@ -108,4 +108,6 @@ std::string slug(std::string_view text) {
     return out;
 }
 
+std::string plain(std::string_view text) { return html_text(one_line(text)); }
+
 } // namespace threefold::report
