@@ -255,7 +255,8 @@ TEST(Cli, AFullDiskIsExit74AndLeavesNothingUnderAFinalName) {
     EXPECT_EQ(answer.exit_code, 74) << answer.err;
     EXPECT_FALSE(fs::exists(folder / "big.exr"));
     EXPECT_TRUE(fs::is_empty(folder / "."));
-    EXPECT_EQ(run(folder, "list > /dev/full; exit $?").exit_code, 74);
+    for (const char *command : {"list", "--help", "--version", "check --help", "--man-page", "--completion"})
+        EXPECT_EQ(run(folder, std::string(command) + " > /dev/full; exit $?").exit_code, 74) << command;
 }
 
 TEST(Cli, SurvivesStreamsThatCannotBeWritten) {

@@ -16,10 +16,7 @@ void add_scene_options(CLI::App &command, SceneRequest &scene) {
     command
         .add_option("--preset", scene.preset, "Values of the study's wording (text) or of its scene files (published)")
         ->capture_default_str();
-    command
-        .add_option("--set", scene.assignments,
-                    "Change a parameter: name=value (see: threefold show SCENE); repeatable")
-        ->allow_extra_args(false);
+    add_set_option(command, scene.assignments, "Change a parameter: orb.wall_mm=2 (see: threefold show SCENE)");
     command.add_option("--size", scene.size, "Picture size in pixels, WIDTHxHEIGHT");
 }
 
@@ -100,10 +97,7 @@ void add_gallery_options(CLI::App &command, GalleryCommand &request) {
         .add_option("--preset", request.preset,
                     "Values of the study's wording (text) or of its scene files (published)")
         ->capture_default_str();
-    command
-        .add_option("--set", request.assignments,
-                    "Change a parameter of every scene that has it: name=value; repeatable")
-        ->allow_extra_args(false);
+    add_set_option(command, request.assignments);
     command.add_option("--scale", request.scale,
                        "Size of the pictures as a share of the study's (0.5; with --quick: 0.25)");
     command.add_option("--spp", request.samples_per_pixel, "Samples per pixel (9; with --quick: 4)");
