@@ -176,6 +176,36 @@ TEST(Mitsuba, ASceneWithoutLightIsRefusedAndCanBeGivenOne) {
     EXPECT_EQ(read(folder, body, {{"environment.radiance", "1"}}).environment->radiance, Rgb(1));
 }
 
+TEST(Mitsuba, OffersTheShadowsOfGlassThatRenderersCanDoAndNoOther) {
+    const tests::TemporaryFolder folder;
+    std::ofstream(folder / "scene.xml") << "<scene version=\"0.5.0\">" << camera << "</scene>";
+    const SceneRecipe recipe = mitsuba_scene(folder / "scene.xml", [](const std::string &) {});
+    const auto shadow = std::ranges::find(recipe.parameters, "glass.shadow", &ParameterSpec::name);
+    ASSERT_NE(shadow, recipe.parameters.end());
+    EXPECT_THAT(shadow->choices, ElementsAre("opaque", "none", "constant"));
+}
+
+TEST(Mitsuba, WhatOurOwnInstructionSaysAndCannotBeDoneIsRefused) {
+    const auto refused = [](const std::string &instruction) {
+        const tests::TemporaryFolder folder;
+        std::ofstream(folder / "scene.xml")
+            << "<?threefold " << instruction << "?><scene version=\"0.5.0\">" << camera << "</scene>";
+        try {
+            mitsuba_scene(folder / "scene.xml", [](const std::string &) {});
+        } catch (const Error &error) {
+            EXPECT_EQ(error.code(), Exit::bad_data);
+            return std::string(error.what());
+        }
+        return std::string("was read");
+    };
+    EXPECT_THAT(refused("glass_shadow=\"caustic\""), HasSubstr("glass_shadow=\"caustic\"?>: no renderer can do this"));
+    EXPECT_THAT(refused("glass_shadow=\"\""), HasSubstr("glass_shadow=\"\"?>"));
+    EXPECT_THAT(refused("unit_mm=\"-1\""), HasSubstr("must be a number from 1e-09"));
+    EXPECT_THAT(refused("dome_directions=\"many\""), HasSubstr("must be a number from 0 to 10000"));
+    EXPECT_THAT(refused("unit_mm=10"), HasSubstr("cannot be read"));
+    EXPECT_EQ(refused("unit_mm=\"10\" glass_shadow=\"none\""), "was read");
+}
+
 TEST(Mitsuba, HostileFilesAreAnsweredNotFollowed) {
     const tests::TemporaryFolder folder;
     EXPECT_THAT(refusal(folder, "<include filename=\"scene.xml\"/>"), HasSubstr("is it a loop?"));

@@ -227,9 +227,8 @@ Scene Reader::scene() {
     }
     const std::string shadow = parameters_.word("glass.shadow");
     scene_.glass_shadow.rule = shadow == "none"       ? GlassShadow::Rule::none
-                               : shadow == "opaque"   ? GlassShadow::Rule::opaque
                                : shadow == "constant" ? GlassShadow::Rule::constant
-                                                      : GlassShadow::Rule::caustic;
+                                                      : GlassShadow::Rule::opaque;
     scene_.glass_shadow.transmittance = parameters_.number("glass.shadow_transmittance");
     fit_picture();
     return std::move(scene_);
@@ -268,10 +267,19 @@ ParameterSpec number(std::string name, std::string description, double value, do
             .whole = whole};
 }
 
+/// What our own instruction says and cannot be done is refused: passed over, it would make another picture.
+[[noreturn]] void refuse_said(const Tree &tree, const std::string &key, std::string_view why) {
+    throw Error(Exit::bad_data, fmt::format("{}: <?threefold {}=\"{}\"?>: {}", one_line(tree.root.place.file), key,
+                                            one_line(tree.said.at(key)), why));
+}
+
 double said_number(const Tree &tree, const std::string &key, double otherwise, double least, double greatest) {
     const auto said = tree.said.find(key);
-    const std::optional<double> value = said == tree.said.end() ? std::nullopt : mitsuba::to_number(said->second);
-    return value && *value >= least && *value <= greatest ? *value : otherwise;
+    if (said == tree.said.end()) return otherwise;
+    const std::optional<double> value = mitsuba::to_number(said->second);
+    if (!value || !(*value >= least && *value <= greatest))
+        refuse_said(tree, key, fmt::format("must be a number from {:g} to {:g}", least, greatest));
+    return *value;
 }
 
 std::vector<ParameterSpec> parameters_in(const Tree &tree) {
@@ -291,10 +299,14 @@ std::vector<ParameterSpec> parameters_in(const Tree &tree) {
     ParameterSpec shadow{.name = "glass.shadow",
                          .description = "how light passes glass on its way to a diffuse surface; Mitsuba's path tracer "
                                         "stops it (opaque)",
-                         .choices = {"opaque", "none", "constant", "caustic"}};
-    if (const auto said = tree.said.find("glass_shadow"); said != tree.said.end())
-        if (const auto at = std::ranges::find(shadow.choices, said->second); at != shadow.choices.end())
-            std::rotate(shadow.choices.begin(), at, at + 1);
+                         .choices = {"opaque", "none", "constant"}}; // of caustics no renderer is capable
+    if (const auto said = tree.said.find("glass_shadow"); said != tree.said.end()) {
+        const auto at = std::ranges::find(shadow.choices, said->second);
+        if (at == shadow.choices.end())
+            refuse_said(tree, "glass_shadow",
+                        fmt::format("no renderer can do this; can be: {}", fmt::join(shadow.choices, ", ")));
+        std::rotate(shadow.choices.begin(), at, at + 1);
+    }
     all.push_back(std::move(shadow));
     const auto has = [&](const std::string &name) { return std::ranges::count(all, name, &ParameterSpec::name) > 0; };
     const auto file = [&](std::string name, std::string description) {
