@@ -165,9 +165,7 @@ TEST(CommandLine, HelpShowsSeveralValuesOnlyWhereSeveralAreTaken) {
 
 TEST(CommandLine, HowLongACheckTakesIsSaidInTheReadmeAlone) {
     const std::regex time(R"([0-9a-z]+ (min|minutes?|hours?)\b(?! of arc))");
-    const auto text = [](const char *file) {
-        return read_file(std::filesystem::path(THREEFOLD_SOURCE_DIR) / file);
-    };
+    const auto text = [](const char *file) { return read_file(std::filesystem::path(THREEFOLD_SOURCE_DIR) / file); };
     const std::string readme = text("README.md"), budgets = text("docs/BUDGETS.md"), help = said("check --help");
     EXPECT_EQ(std::distance(std::sregex_iterator(readme.begin(), readme.end(), time), {}), 1);
     EXPECT_FALSE(std::regex_search(budgets, time));

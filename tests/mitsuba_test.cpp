@@ -176,6 +176,25 @@ TEST(Mitsuba, ASceneWithoutLightIsRefusedAndCanBeGivenOne) {
     EXPECT_EQ(read(folder, body, {{"environment.radiance", "1"}}).environment->radiance, Rgb(1));
 }
 
+TEST(Mitsuba, ASizeThatNeedsAFilmBeyondAllNumbersIsRefused) {
+    const tests::TemporaryFolder folder;
+    const std::string cropped = R"(<sensor type="perspective"><float name="fov" value="10"/><transform name="toWorld">
+<lookat target="0,0,0" origin="90,0,0" up="0,1,0"/></transform><film type="hdrfilm"><integer name="width" value="100000"/>
+<integer name="height" value="100"/><integer name="crop_width" value="1"/><integer name="crop_height" value="1"/>
+</film></sensor><emitter type="constant"><spectrum name="radiance" value="1"/></emitter>)";
+    EXPECT_EQ(read(folder, cropped, {{"image.width_px", "2"}}).camera.width_px, 200000);
+    for (const std::vector<Assignment> &size :
+         {std::vector<Assignment>{{"image.width_px", "30000"}, {"image.height_px", "10"}},
+          {{"image.height_px", "1e6"}}})
+        try {
+            read(folder, cropped, size);
+            ADD_FAILURE() << "was read";
+        } catch (const Error &error) {
+            EXPECT_EQ(error.code(), Exit::bad_data);
+            EXPECT_THAT(error.what(), HasSubstr("the whole film would have"));
+        }
+}
+
 TEST(Mitsuba, OffersTheShadowsOfGlassThatRenderersCanDoAndNoOther) {
     const tests::TemporaryFolder folder;
     std::ofstream(folder / "scene.xml") << "<scene version=\"0.5.0\">" << camera << "</scene>";

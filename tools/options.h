@@ -2,6 +2,7 @@
 // The options of each command, with their help; where they are put when the command line is read.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -47,6 +48,7 @@ add_renderers_option(CLI::App &command, std::vector<std::string> &with,
                                              "all that are installed)");
 CLI::Option *add_time_limit_option(CLI::App &command, double &seconds,
                                    std::string_view help = "Seconds until a renderer is given up");
+CLI::Option *add_seed_option(CLI::App &command, std::uint64_t &seed, std::string_view help = "Seed");
 CLI::Option *add_json_option(CLI::App &command, std::optional<std::string> &file);
 
 } // namespace threefold

@@ -11,8 +11,7 @@ void add_check_options(CLI::App &command, CheckCommand &request) {
         "--mitsuba", request.mitsuba,
         "Instead: whether a Mitsuba 0.5 to 3 file is the same picture in every renderer, tile by tile (its "
         "parameters: threefold show --mitsuba FILE)");
-    command.add_flag("--quick", request.quick,
-                     "Smaller pictures and one preset; README.md says how long it takes");
+    command.add_flag("--quick", request.quick, "Smaller pictures and one preset; README.md says how long it takes");
     add_renderers_option(command, request.with);
     command.add_option(
         "--preset", request.preset,
@@ -29,7 +28,7 @@ void add_check_options(CLI::App &command, CheckCommand &request) {
                                    "Put a fault, or FAULT@SIZE, into one renderer, to see that a claim can fail "
                                    "(see: threefold list)"),
                 "RENDERER:FAULT");
-    command.add_option("--seed", request.seed, "Seed")->capture_default_str();
+    add_seed_option(command, request.seed);
     add_time_limit_option(command, request.time_limit_s, "Seconds until a renderer is given up on one experiment");
     command
         .add_option(

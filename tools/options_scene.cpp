@@ -33,7 +33,7 @@ void add_export_options(CLI::App &command, ExportRequest &request) {
     command.add_option("--spp", request.samples_per_pixel, "blender, povray: samples per pixel, as render takes them")
         ->capture_default_str()
         ->check(CLI::PositiveNumber);
-    command.add_option("--seed", request.seed, "blender: seed")->capture_default_str();
+    add_seed_option(command, request.seed, "blender: seed");
     add_time_limit_option(command, request.time_limit_s, "blender, glb: seconds until Blender is given up");
     command.footer("For example:\n"
                    "  threefold export hollow --to blender -o hollow-blend    change the wall in the orb's modifier\n"
@@ -59,7 +59,7 @@ void add_render_options(CLI::App &command, RenderRequest &request) {
                 "if that is not shown")
             ->check(CLI::Range(1e-9, 0.999))
             ->excludes(spp);
-    command.add_option("--seed", request.seed, "Seed")->capture_default_str();
+    add_seed_option(command, request.seed);
     command.add_flag("--pixel-centres", request.pixel_centres, "One ray through each pixel's centre, no filter")
         ->excludes(tolerance);
     command
@@ -106,7 +106,7 @@ void add_gallery_options(CLI::App &command, GalleryCommand &request) {
         .add_option("-o,--output", request.folder,
                     "Folder: index.html, contact-sheet.png, pictures; a killed run goes on there")
         ->capture_default_str();
-    command.add_option("--seed", request.seed, "Seed")->capture_default_str();
+    add_seed_option(command, request.seed);
     add_time_limit_option(command, request.time_limit_s);
 }
 

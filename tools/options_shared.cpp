@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include "tools/options.h"
 
@@ -59,6 +60,14 @@ CLI::Option *add_time_limit_option(CLI::App &command, double &seconds, std::stri
     return command.add_option("--timeout", seconds, std::string(help))
         ->capture_default_str()
         ->check(CLI::PositiveNumber);
+}
+
+CLI::Option *add_seed_option(CLI::App &command, std::uint64_t &seed, std::string_view help) {
+    // The parser takes -1 for 2^64 - 1.
+    const auto unsigned_only = [](const std::string &text) {
+        return text.starts_with('-') ? fmt::format("must be a whole number from 0 to 2^64 - 1, not {}", text) : "";
+    };
+    return command.add_option("--seed", seed, std::string(help))->capture_default_str()->check(unsigned_only);
 }
 
 CLI::Option *add_json_option(CLI::App &command, std::optional<std::string> &file) {

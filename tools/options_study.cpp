@@ -22,7 +22,7 @@ void add_power_options(CLI::App &command, PowerCommand &power) {
         .add_option("--precision", power.precision,
                     "Tracer: float, as other renderers compute, or double, which sees far smaller faults")
         ->capture_default_str();
-    command.add_option("--seed", power.seed, "Seed")->capture_default_str();
+    add_seed_option(command, power.seed);
     command.add_option("-o,--output", power.folder, "Folder of the study: power.json, power.md, honest pictures")
         ->capture_default_str();
     add_json_option(command, power.json);
@@ -47,7 +47,7 @@ void add_trade_options(CLI::App &command, TradeCommand &trade) {
             "--budget", trade.budget_s,
             "CPU seconds to see one renderer meet one tolerance (300; --quick: 60); beyond, its law alone speaks")
         ->check(CLI::PositiveNumber);
-    command.add_option("--seed", trade.seed, "Seed")->capture_default_str();
+    add_seed_option(command, trade.seed);
     command
         .add_option("-o,--output", trade.folder,
                     "Folder: report.html, trade.json, trade.csv, trade.md, pictures; a killed run goes on there")

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -153,6 +154,11 @@ void Reader::fit_picture() {
     if (width == 0 && height == 0) return;
     const double w = camera.image_width_px(), h = camera.image_height_px();
     const double scale = width > 0 ? width / w : height / h;
+    constexpr double most_px = std::numeric_limits<int>::max();
+    if (camera.width_px * scale > most_px || camera.height_px * scale > most_px)
+        throw Error(Exit::bad_data, fmt::format("{}: at the size asked the whole film would have {:.3g} x {:.3g} px",
+                                                one_line(document_.tree.root.place.file), camera.width_px * scale,
+                                                camera.height_px * scale));
     const int new_width = width > 0 ? width : std::max(1, static_cast<int>(std::lround(w * scale)));
     const int new_height = height > 0 ? height : std::max(1, static_cast<int>(std::lround(h * scale)));
     if (!camera.crop) {
