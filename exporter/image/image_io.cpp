@@ -25,8 +25,8 @@ namespace {
 constexpr std::int64_t max_pixels = std::int64_t{1} << 28;
 constexpr std::int64_t max_compression = 100'000;
 
-[[noreturn]] void throw_bad_picture(const std::filesystem::path &path, std::string reason) {
-    throw Error(Exit::bad_data, fmt::format("cannot read picture {}: {}", path.string(), one_line(std::move(reason))));
+[[noreturn]] void throw_bad_picture(const std::filesystem::path &path, std::string why) {
+    throw Error(Exit::bad_data, fmt::format("cannot read picture {}: {}", path.string(), reason(std::move(why))));
 }
 
 void undo_curve(Image &image, const OIIO::ImageSpec &spec) {
@@ -61,10 +61,10 @@ bool read_integers(OIIO::ImageInput &input, int channels, Image &image) {
 
 /// The file in memory; the writers of OpenImageIO would otherwise leave a part of a file on a full disk.
 std::string encode(const char *extension, const OIIO::ImageSpec &spec, OIIO::TypeDesc format, const void *samples) {
-    const auto fail = [&](std::string reason) {
-        if (reason.empty()) reason = OIIO::geterror();
+    const auto fail = [&](std::string why) {
+        if (why.empty()) why = OIIO::geterror();
         throw Error(Exit::internal, fmt::format("cannot encode a {} picture of {} x {} pixels: {}", extension,
-                                                spec.width, spec.height, one_line(std::move(reason))));
+                                                spec.width, spec.height, reason(std::move(why))));
     };
     const std::string name = std::string("picture") + extension;
     OIIO::Filesystem::IOVecOutput bytes;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <system_error>
 
@@ -154,6 +155,11 @@ void Reader::fit_picture() {
     if (width == 0 && height == 0) return;
     const double w = camera.image_width_px(), h = camera.image_height_px();
     const double scale = width > 0 ? width / w : height / h;
+    constexpr double most_px = std::numeric_limits<int>::max();
+    if (camera.width_px * scale > most_px || camera.height_px * scale > most_px)
+        throw Error(Exit::bad_data, fmt::format("{}: at the size asked the whole film would have {:.3g} x {:.3g} px",
+                                                one_line(document_.tree.root.place.file), camera.width_px * scale,
+                                                camera.height_px * scale));
     const int new_width = width > 0 ? width : std::max(1, static_cast<int>(std::lround(w * scale)));
     const int new_height = height > 0 ? height : std::max(1, static_cast<int>(std::lround(h * scale)));
     if (!camera.crop) {
@@ -228,9 +234,8 @@ Scene Reader::scene() {
     }
     const std::string shadow = parameters_.word("glass.shadow");
     scene_.glass_shadow.rule = shadow == "none"       ? GlassShadow::Rule::none
-                               : shadow == "opaque"   ? GlassShadow::Rule::opaque
                                : shadow == "constant" ? GlassShadow::Rule::constant
-                                                      : GlassShadow::Rule::caustic;
+                                                      : GlassShadow::Rule::opaque;
     scene_.glass_shadow.transmittance = parameters_.number("glass.shadow_transmittance");
     fit_picture();
     return std::move(scene_);
@@ -269,10 +274,19 @@ ParameterSpec file_parameter(std::string name, std::string description, double v
             .whole = whole};
 }
 
+/// What our own instruction says and cannot be done is refused: passed over, it would make another picture.
+[[noreturn]] void refuse_said(const Tree &tree, const std::string &key, std::string_view why) {
+    throw Error(Exit::bad_data, fmt::format("{}: <?threefold {}=\"{}\"?>: {}", one_line(tree.root.place.file), key,
+                                            one_line(tree.said.at(key)), why));
+}
+
 double said_number(const Tree &tree, const std::string &key, double otherwise, double least, double greatest) {
     const auto said = tree.said.find(key);
-    const std::optional<double> value = said == tree.said.end() ? std::nullopt : mitsuba::to_number(said->second);
-    return value && *value >= least && *value <= greatest ? *value : otherwise;
+    if (said == tree.said.end()) return otherwise;
+    const std::optional<double> value = mitsuba::to_number(said->second);
+    if (!value || !(*value >= least && *value <= greatest))
+        refuse_said(tree, key, fmt::format("must be a number from {:g} to {:g}", least, greatest));
+    return *value;
 }
 
 std::vector<ParameterSpec> parameters_in(const Tree &tree) {
@@ -292,10 +306,14 @@ std::vector<ParameterSpec> parameters_in(const Tree &tree) {
     ParameterSpec shadow{.name = "glass.shadow",
                          .description = "how light passes glass on its way to a diffuse surface; Mitsuba's path tracer "
                                         "stops it (opaque)",
-                         .choices = {"opaque", "none", "constant", "caustic"}};
-    if (const auto said = tree.said.find("glass_shadow"); said != tree.said.end())
-        if (const auto at = std::ranges::find(shadow.choices, said->second); at != shadow.choices.end())
-            std::rotate(shadow.choices.begin(), at, at + 1);
+                         .choices = {"opaque", "none", "constant"}}; // of caustics no renderer is capable
+    if (const auto said = tree.said.find("glass_shadow"); said != tree.said.end()) {
+        const auto at = std::ranges::find(shadow.choices, said->second);
+        if (at == shadow.choices.end())
+            refuse_said(tree, "glass_shadow",
+                        fmt::format("no renderer can do this; can be: {}", fmt::join(shadow.choices, ", ")));
+        std::rotate(shadow.choices.begin(), at, at + 1);
+    }
     all.push_back(std::move(shadow));
     const auto has = [&](const std::string &name) { return std::ranges::count(all, name, &ParameterSpec::name) > 0; };
     const auto file = [&](std::string name, std::string description) {

@@ -181,7 +181,7 @@ GuardedResult run_guarded(const GuardedRequest &request) {
         answer.bytes = all_of(result.number());
         break;
     case exit_failed:
-        answer.failure = one_line(all_of(result.number()));
+        answer.failure = reason(all_of(result.number()));
         break;
     default:
         answer.failure = fmt::format("it needs more than {:.1f} GB of memory", double(memory) / 1e9);
