@@ -8,5 +8,7 @@ namespace threefold {
 
 /// On one line, without control characters; "unknown reason" where nothing is left.
 std::string one_line(std::string text);
+/// A to Z become a to z.
+std::string lower_case(std::string text);
 
 } // namespace threefold
