@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "scenes/catalogue/composition.h"
+#include "scenes/catalogue/painted_robe.h"
 #include "scenes/error.h"
 #include "scenes/figure/film_camera.h"
 #include "scenes/figure/hand.h"
@@ -159,6 +160,7 @@ TEST(Figure, IsStoredAsItIsMade) {
     EXPECT_TRUE(stored.triangles == made.triangles);
     EXPECT_TRUE(stored_heights() == paint_heights(ReliefGrid(usual_relief_columns)));
     EXPECT_TRUE(stored_relief_texture() == paint_relief_texture());
+    EXPECT_TRUE(stored_robe_texture() == paint_robe_texture());
     const std::vector<SceneRecipe> scenes = built_in_scenes();
     const Parameters usual(find_scene(scenes, "salvator").parameters, Preset::text);
     EXPECT_EQ(usual.number("robe.relief_resolution"), usual_relief_columns);

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MIT
-# What of the figure no parameter changes takes a second to make: it is made here, once, and kept in the library
+# What of the figure and of the robe no parameter changes takes a second to make: it is made here, once, and kept in the library
 # (stored_figure.h). The objects that make it are in the library too.
 set(figure ${PROJECT_SOURCE_DIR}/scenes/figure)
 set(figure_makers ${figure}/drawing.cpp ${figure}/hand_shape.cpp ${figure}/painted_relief.cpp ${figure}/painting.cpp
-    ${figure}/painting_blessing.cpp ${figure}/painting_face.cpp ${figure}/painting_robe.cpp ${figure}/surface_net.cpp)
+    ${figure}/painting_blessing.cpp ${figure}/painting_face.cpp ${figure}/painting_robe.cpp ${figure}/surface_net.cpp
+    ${PROJECT_SOURCE_DIR}/scenes/catalogue/painted_robe.cpp)
 add_library(threefold_figure OBJECT ${figure_makers})
 target_include_directories(threefold_figure PRIVATE ${PROJECT_SOURCE_DIR})
 add_executable(threefold_store_figure ${figure}/store_figure.cpp $<TARGET_OBJECTS:threefold_figure>)

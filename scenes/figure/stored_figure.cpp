@@ -33,7 +33,9 @@ std::vector<T> stored_list(std::size_t offset, std::uint64_t count) {
 
 std::size_t heights_at(const StoredCounts &n) { return sizeof n + n.hand_vertices * sizeof(Vec3); }
 std::size_t triangles_at(const StoredCounts &n) { return heights_at(n) + n.heights * sizeof(double); }
-std::size_t texture_at(const StoredCounts &n) { return triangles_at(n) + n.hand_triangles * sizeof(glm::uvec3); }
+std::size_t relief_at(const StoredCounts &n) { return triangles_at(n) + n.hand_triangles * sizeof(glm::uvec3); }
+
+std::size_t robe_at(const StoredCounts &n) { return relief_at(n) + n.relief_samples * sizeof(std::uint16_t); }
 
 } // namespace
 
@@ -52,7 +54,12 @@ std::vector<double> stored_heights() {
 
 std::vector<std::uint16_t> stored_relief_texture() {
     const StoredCounts n = stored_counts();
-    return stored_list<std::uint16_t>(texture_at(n), n.texture_samples);
+    return stored_list<std::uint16_t>(relief_at(n), n.relief_samples);
+}
+
+std::vector<std::uint16_t> stored_robe_texture() {
+    const StoredCounts n = stored_counts();
+    return stored_list<std::uint16_t>(robe_at(n), n.robe_samples);
 }
 
 } // namespace threefold::figure
