@@ -33,7 +33,7 @@ std::vector<std::string> found(const std::string &text, const char *pattern) {
 
 /// Of all libraries that the loader maps, those of other libraries too.
 std::vector<std::string> loaded_at_start() {
-    return found(output_of("LD_TRACE_LOADED_OBJECTS=1 '" THREEFOLD_PROGRAM "' list"), "\\s(\\S+\\.so[.0-9]*) ");
+    return found(output_of("LD_TRACE_LOADED_OBJECTS=1 '" THREEFOLD_PROGRAM "' list"), "\\t(\\S+) ");
 }
 
 TEST(StartUp, TheProgramIsLinkedToNoOtherLibrariesThanThese) {
