@@ -116,7 +116,7 @@ Camera make_camera(const Parameters &p) {
 Quad make_card(const Parameters &p) {
     const double half = p.number("card.half_width_mm");
     Quad card{{0, 0, -p.number("card.distance_mm")}, {half, 0, 0}, {0, half, 0}, CoordinateCard{}};
-    if (p.word("card.surface") == "textured") card.surface = Emissive{robe_texture(512)};
+    if (p.word("card.surface") == "textured") card.surface = Emissive{robe_texture()};
     return card;
 }
 

@@ -43,12 +43,12 @@ Witness witness_of(const Adapter &adapter) {
     return w;
 }
 
-std::string tracer_key(const RenderJob &job, const TracerSettings &settings) {
+std::string tracer_key(const RenderJob &job, const std::string &hash, const TracerSettings &settings) {
     Json replicates = Json::array();
     for (const Replicate &r : job.replicates) replicates.push_back({r.seed, r.film_offset_px.x, r.film_offset_px.y});
     const Json key{
         {"tracer", tracer_revision},
-        {"scene", scene_hash(job.scene)},
+        {"scene", hash},
         {"sampling", static_cast<int>(job.sampling)},
         {"samples", job.samples_per_pixel},
         {"replicates", replicates},
@@ -242,16 +242,17 @@ Rendered render(const Witness &witness, RenderJob job, const RenderOptions &opti
     std::optional<Exported> exported;
     if (witness.adapter) exported = witness.adapter->compile(job);
 
-    const std::string key = exported ? program_key(witness, *exported) : tracer_key(job, options.tracer);
+    const std::string hash = scene_hash(job.scene);
+    const std::string key = exported ? program_key(witness, *exported) : tracer_key(job, hash, options.tracer);
     const std::string name = fmt::format("{}-{}-{}", options.label, witness.name, key.substr(0, 12));
     const std::filesystem::path folder = options.folder / "renders" / name;
 
     const FolderInUse in_use(folder);
     std::optional<Rendered> r = cached(folder, key, job);
     if (!r) {
-        make_folder(folder);
+        if (exported || options.keep) make_folder(folder);
         r = exported ? render_by_program(witness, job, *exported, options, folder) : render_by_tracer(job, options);
-        keep(folder, key, *r);
+        if (options.keep) keep(folder, key, *r);
     }
     RenderRecord &record = r->record;
     record.witness = witness.name;
@@ -265,7 +266,7 @@ Rendered render(const Witness &witness, RenderJob job, const RenderOptions &opti
     record.replicates = static_cast<int>(job.replicates.size());
     const bool several = job.sampling == Sampling::box || record.accuracy.random_branches; // else one ray tells all
     record.samples_per_pixel = several ? job.samples_per_pixel : 1;
-    record.scene_hash = scene_hash(job.scene);
+    record.scene_hash = hash;
     return *std::move(r);
 }
 
