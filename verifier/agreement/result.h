@@ -54,7 +54,8 @@ struct TileComparison {
     int holding = 0, failing = 0, open = 0; ///< tiles by their own interval
     double needed_share = 1;                ///< of all tiles must hold
     int replicates = 0;                     ///< the fewer of both renderers'
-    double level = first_look;              ///< of each tile's test: `first_look` or `second_look`
+    double noise_of_witness = 0.5; ///< its share of the variance of the tiles' differences; `versus` has the rest
+    double level = first_look;     ///< of each tile's test: `first_look` or `second_look`
     Verdict verdict = Verdict::undecided;
     std::optional<int> replicates_to_decide;
 };

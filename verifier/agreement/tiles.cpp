@@ -76,6 +76,21 @@ TileComparison judge_tiles(int columns, int rows, int tile_px, double tolerance,
     return c;
 }
 
+/// Share of `a` in the summed variance of all tiles' means; a half where there is no noise at all.
+double share_of_noise(const std::vector<Image> &tiles_a, const std::vector<Image> &tiles_b) {
+    const auto variance = [](const std::vector<Image> &tiles) {
+        double sum = 0;
+        for (std::size_t tile = 0; tile < tiles.front().pixels.size(); ++tile)
+            for (int channel = 0; channel < 3; ++channel) {
+                const double e = of_channel(tiles, tile, channel).standard_error;
+                sum += e * e;
+            }
+        return sum;
+    };
+    const double a = variance(tiles_a), b = variance(tiles_b);
+    return a + b > 0 && std::isfinite(a + b) ? a / (a + b) : 0.5;
+}
+
 } // namespace
 
 TileComparison compare_tiles(const std::vector<Image> &a, const std::vector<Image> &b, int tile_px, double tolerance,
@@ -94,6 +109,7 @@ TileComparison compare_tiles(const std::vector<Image> &a, const std::vector<Imag
                         return estimate(differences);
                     });
     c.mean_radiance = (mean_radiance(mean(a)) + mean_radiance(mean(b))) / 2;
+    if (!paired) c.noise_of_witness = share_of_noise(tiles_a, tiles_b);
     c.replicates = static_cast<int>(std::min(a.size(), b.size()));
     return c;
 }

@@ -37,7 +37,8 @@ double Look::work() const {
 
 int first_replicates(const Witness &w, const Experiment &e, const std::vector<Experiment> &all) {
     const bool is_paired = !e.partner.empty() || std::ranges::count(all, e.name, &Experiment::partner) > 0;
-    if (w.pictures || is_paired || compares_a_share_of_tiles(e)) return e.replicates;
+    const bool decides_noise = e.tile_budget && w.adapter && w.adapter->sample_factor > 1;
+    if (w.pictures || is_paired || compares_a_share_of_tiles(e) || decides_noise) return e.replicates;
     return std::min(e.replicates, fewest_replicates);
 }
 
