@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "exporter/job.h"
 
@@ -34,6 +35,9 @@ struct Adapter {
     int sample_factor = 1;
     /// The line after which the program does nothing but render: reading and building are over. May be null.
     bool (*rendering_begins)(std::string_view line) = nullptr;
+    /// Arguments with which the program renders one job after another (exporter/session.h): its stdin gives a line of
+    /// JSON for each, the folder that holds the job's files. May be null: it cannot.
+    std::vector<std::string> (*session_arguments)() = nullptr;
     /// CPU seconds of rendering alone, if the program's log tells them. May be null.
     std::optional<double> (*own_cpu_seconds)(std::string_view log) = nullptr;
 };

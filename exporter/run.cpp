@@ -12,6 +12,7 @@
 #include "exporter/files.h"
 #include "exporter/image/image_io.h"
 #include "exporter/process/child.h"
+#include "exporter/session.h"
 #include "scenes/error.h"
 
 namespace threefold {
@@ -71,6 +72,20 @@ void require_success(const Run &run, const ChildResult &child) {
         if (child.exit_code != 0)
             run.fail(Exit::input_output, fmt::format("failed: {}{}", child.describe(), run.explanation()));
     }
+}
+
+ChildResult run_alone(const Adapter &adapter, const InstalledRenderer &installed, const Exported &exported,
+                      const RunOptions &options, const fs::path &log, std::function<void(std::string_view)> on_line) {
+    ChildRequest request;
+    request.program = installed.program;
+    request.arguments = exported.thread_arguments;
+    request.arguments.insert(request.arguments.end(), exported.arguments.begin(), exported.arguments.end());
+    request.folder = options.folder;
+    request.log = log;
+    request.time_limit = options.time_limit;
+    if (adapter.rendering_begins) request.marks = adapter.rendering_begins;
+    request.on_line = std::move(on_line);
+    return run_child(request);
 }
 
 Image read_output(const Run &run, const fs::path &picture, const Exported &exported, const Camera &camera) {
@@ -137,23 +152,19 @@ RunOutcome run_exported(const Adapter &adapter, const InstalledRenderer &install
     remove_stale_pictures(exported, options.folder);
 
     const Run run{adapter, options.folder / fmt::format("{}.log", adapter.name)};
-    ChildRequest request;
-    request.program = installed.program;
-    request.arguments = exported.thread_arguments;
-    request.arguments.insert(request.arguments.end(), exported.arguments.begin(), exported.arguments.end());
-    request.folder = options.folder;
-    request.log = run.log;
-    request.time_limit = options.time_limit;
-    if (adapter.rendering_begins) request.marks = adapter.rendering_begins;
+    std::function<void(std::string_view)> on_line;
     double last_share = 0;
     if (options.on_progress)
-        request.on_line = [&](std::string_view line) {
+        on_line = [&](std::string_view line) {
             const auto share = adapter.progress(line, last_share, exported);
             if (!share) return;
             last_share = *share;
             options.on_progress(*share);
         };
-    const ChildResult child = run_child(request);
+    const ChildResult child = options.sessions && adapter.session_arguments
+                                  ? options.sessions->render(adapter, installed, exported.thread_arguments,
+                                                             {options.folder, run.log, options.time_limit, on_line})
+                                  : run_alone(adapter, installed, exported, options, run.log, on_line);
     require_success(run, child);
 
     RunOutcome outcome;

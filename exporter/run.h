@@ -12,6 +12,8 @@
 
 namespace threefold {
 
+class Sessions;
+
 struct InstalledRenderer {
     std::filesystem::path program;
     std::string version;
@@ -24,7 +26,9 @@ std::optional<InstalledRenderer> find_renderer(const Adapter &adapter);
 struct RunOptions {
     std::filesystem::path folder; ///< for inputs, log and pictures; made if needed
     std::chrono::milliseconds time_limit{std::chrono::minutes(10)};
-    std::function<void(double share)> on_progress; ///< called from the waiting thread
+    std::function<void(double share)> on_progress; ///< called from one thread at a time
+    /// Where set, a program that can renders this job after earlier ones, without a start of its own.
+    Sessions *sessions = nullptr;
 };
 
 struct RunOutcome {

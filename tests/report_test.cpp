@@ -12,6 +12,7 @@
 #include <regex>
 #include <set>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -173,6 +174,39 @@ pugi::xml_document parse(const std::string &xml) {
 
 // ---------------------------------------------------------------------------------------------------------------------
 // JSON
+
+TEST(Report, WhileTheRunGoesOnSaysHowFarItIsAndReloadsItself) {
+    RunResult r = example();
+    EXPECT_THAT(to_html(r), Not(HasSubstr("http-equiv=\"refresh\"")));
+    r.claims_planned = r.claims.size() + 3;
+    const std::string page = to_html(r);
+    EXPECT_THAT(page, HasSubstr(fmt::format("Running: {} of {} claims judged", r.claims.size(), r.claims_planned)));
+    EXPECT_THAT(page, HasSubstr("http-equiv=\"refresh\""));
+}
+
+TEST(Report, TellsTheTimeByExperimentAndRenderer) {
+    RunResult r = example();
+    r.renders.clear();
+    const auto add = [&](const char *experiment, const char *witness, double seconds, bool kept) {
+        RenderRecord record;
+        record.experiment = experiment, record.witness = witness, record.preset = "text";
+        record.cpu_seconds = seconds, record.replicates = 4, record.from_cache = kept;
+        r.renders.push_back(record);
+    };
+    add("small", "povray", 0.5, false);
+    add("large", "povray", 7.25, false);
+    add("large", "povray", 2, false); // more replicates
+    add("large", "tracer", 3, true);
+    const auto times = to_json(r).at("timing").at("by_experiment");
+    ASSERT_EQ(times.size(), 2u);
+    EXPECT_EQ(times[1].at("renderers").at("povray").at("cpu_seconds"), 9.25);
+    EXPECT_EQ(times[1].at("renderers").at("povray").at("replicates"), 8);
+    EXPECT_EQ(times[1].at("renderers").at("tracer").at("cpu_seconds"), 0) << "kept from before";
+    const std::string text = to_text(r, false, 1);
+    EXPECT_LT(text.find("large"), text.find("small")) << "the longest first";
+    EXPECT_THAT(text, HasSubstr("9.25"));
+    EXPECT_THAT(to_text(r, false, 0), Not(HasSubstr("9.25")));
+}
 
 TEST(ResultJson, survives_a_round_trip_through_text) {
     const auto json = to_json(example());

@@ -6,6 +6,7 @@
 #include "exporter/blender/log.h"
 #include "exporter/blender/prelude.h"
 #include "exporter/blender/scene_data.h"
+#include "exporter/blender/session_script.h"
 
 namespace threefold {
 
@@ -46,6 +47,7 @@ Adapter cycles_adapter() {
     adapter.sample_factor = 8; // glass reflects or refracts at random
     // "... | Sample 0/32": meshes and their hierarchy are built.
     adapter.rendering_begins = [](std::string_view line) { return line.find("| Sample 0/") != line.npos; };
+    adapter.session_arguments = blender_session_arguments;
     return adapter;
 }
 

@@ -156,8 +156,11 @@ private:
     void finish_line() {
         if (line_.empty()) return;
         if (first_line_.empty()) first_line_ = line_;
-        if (request_.marks && group_ && !cpu_seconds_at_mark_ && request_.marks(line_))
-            cpu_seconds_at_mark_ = group_->cpu_seconds();
+        if (request_.marks && group_ && (!cpu_seconds_at_mark_ || request_.on_mark) && request_.marks(line_)) {
+            const std::optional<double> now = group_->cpu_seconds();
+            if (!cpu_seconds_at_mark_) cpu_seconds_at_mark_ = now;
+            if (request_.on_mark && now) request_.on_mark(*now, group_->peak_memory_kb() * 1024 / 1e6);
+        }
         if (request_.on_line) request_.on_line(line_);
         line_.clear();
     }
@@ -207,7 +210,10 @@ pid_t spawn(const ChildRequest &request, int output_pipe) {
     // stdin last: the pipe's own number may be 0 when our stdin is closed.
     posix_spawn_file_actions_adddup2(&settings.actions, output_pipe, STDOUT_FILENO);
     posix_spawn_file_actions_adddup2(&settings.actions, output_pipe, STDERR_FILENO);
-    posix_spawn_file_actions_addopen(&settings.actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    if (request.input >= 0)
+        posix_spawn_file_actions_adddup2(&settings.actions, request.input, STDIN_FILENO);
+    else
+        posix_spawn_file_actions_addopen(&settings.actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
     posix_spawn_file_actions_addclosefrom_np(&settings.actions, STDERR_FILENO + 1);
     if (!request.folder.empty()) posix_spawn_file_actions_addchdir_np(&settings.actions, request.folder.c_str());
     sigset_t none, all;
@@ -311,7 +317,7 @@ ChildResult run_child(const ChildRequest &request) {
             next_sample = Clock::now() + step;
         }
         interrupted = interrupted || interrupt_requested;
-        const bool late = elapsed_since(start) >= request.time_limit;
+        const bool late = elapsed_since(start) >= request.time_limit || (request.should_end && request.should_end());
         if (!told_to_end && (late || interrupted)) {
             told_to_end = Clock::now();
             result.end = ChildResult::End::timed_out;

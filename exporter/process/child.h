@@ -21,13 +21,19 @@ struct ChildRequest {
     std::filesystem::path program;      ///< absolute
     std::vector<std::string> arguments; ///< never goes through a shell
     std::filesystem::path folder;       ///< working directory; empty: ours
+    int input = -1;                     ///< descriptor that is the child's stdin, above 2; -1: it has none
     std::filesystem::path log;          ///< stdout and stderr together; empty: no log
     std::chrono::milliseconds time_limit{std::chrono::minutes(10)};
     /// Called from the waiting thread with each line of output ('\n' and '\r' both end one; empty lines are left out,
     /// and one of more than 64 KiB comes in pieces).
     std::function<void(std::string_view)> on_line;
-    /// The first line for which this is true marks a moment: `ChildResult::cpu_seconds_at_mark`. May be empty.
+    /// Lines for which this is true mark a moment: the first one gives `ChildResult::cpu_seconds_at_mark`. May be
+    /// empty.
     std::function<bool(std::string_view)> marks;
+    /// Called at each such line, before `on_line`, with what the child itself used so far. May be empty.
+    std::function<void(double cpu_seconds, double peak_memory_mb)> on_mark;
+    /// Once this is true the child is told to end, as when its time is over. May be empty.
+    std::function<bool()> should_end;
 };
 
 struct ChildResult {

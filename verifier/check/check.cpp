@@ -94,6 +94,7 @@ private:
             for (const Experiment &e : plan_[i].experiments) trials_.push_back({i, &e});
         RenderQueue queue(request_.threads);
         for (std::size_t i = 0; i < trials_.size(); ++i) add_first_look(queue, i);
+        judge_what_is_rendered(queue); // without a renderer that is there, nothing ever ends
         conclude_what_is_judged();
         const auto start = Clock::now();
         while (std::optional<RenderAnswer> answer = queue.next()) {

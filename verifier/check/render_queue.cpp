@@ -76,12 +76,14 @@ int RenderQueue::threads_for_next() const {
 }
 
 void RenderQueue::work() {
+    Sessions sessions;
     std::unique_lock lock(mutex_);
     while (true) {
         changed_.wait(lock, [this] { return stopping_ || !waiting_.empty(); });
         if (stopping_) return;
         const int threads = threads_for_next();
-        const RenderTask task = std::move(waiting_.front());
+        RenderTask task = std::move(waiting_.front());
+        task.options.sessions = &sessions;
         waiting_.pop_front();
         ++running_;
         lock.unlock();

@@ -127,7 +127,7 @@ Rendered render_by_tracer(const RenderJob &job, const RenderOptions &options) {
 Rendered render_by_program(const Witness &witness, const RenderJob &job, const Exported &exported,
                            const RenderOptions &options, const std::filesystem::path &folder) {
     RunOutcome outcome = run_exported(*witness.adapter, *witness.installed, exported, job,
-                                      {folder, options.time_limit, options.on_progress});
+                                      {folder, options.time_limit, options.on_progress, options.sessions});
     Rendered r;
     r.images = std::move(outcome.images);
     r.record.seconds = outcome.seconds;

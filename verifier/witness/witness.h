@@ -11,6 +11,7 @@
 
 #include "exporter/image/image.h"
 #include "exporter/run.h"
+#include "exporter/session.h"
 #include "verifier/agreement/result.h"
 #include "verifier/tracer/tracer.h"
 
@@ -45,6 +46,7 @@ struct RenderOptions {
     TracerSettings tracer;
     std::chrono::milliseconds time_limit{std::chrono::minutes(10)};
     std::function<void(double share)> on_progress;
+    Sessions *sessions = nullptr; ///< of the calling thread: programs that are already running
     bool keep = true; ///< pictures, for a later run; false where the folder goes away
 };
 
