@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <fstream>
@@ -136,6 +137,30 @@ TEST(MeshFile, AConcavePolygonWithCornersOnALineHasItsOwnAreaInObjAndPly) {
     }
     EXPECT_NEAR(area_of(read_mesh(write(folder / "u.obj", obj + face + "\n"))), 90, 1e-9);
     EXPECT_NEAR(area_of(read_mesh(write(folder / "u.ply", ply + "9 0 1 2 3 4 5 6 7 8\n"))), 90, 1e-9);
+}
+
+TEST(MeshFile, ABinaryPlyMayBeginItsDataWithTheByteOfALinesEnd) {
+    const tests::TemporaryFolder folder;
+    const std::string head =
+        "ply\nformat binary_little_endian 1.0\ncomment x\nelement vertex 3\nproperty float x\nproperty float "
+        "y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
+    for (const std::uint32_t bits : {0x3f80000au, 0x3f80000du, 0x3f800000u}) {
+        const auto x = std::bit_cast<float>(bits);
+        const Mesh mesh = read_mesh(write(folder / "t.ply", head + raw<float>({x, 0, 0, 3, 0, 0, 0, 4, 0}) + "\3" +
+                                                                raw<std::int32_t>({0, 1, 2})));
+        EXPECT_THAT(mesh.vertices_mm, ElementsAre(Vec3(x, 0, 0), Vec3(3, 0, 0), Vec3(0, 4, 0))) << bits;
+    }
+}
+
+TEST(MeshFile, ABinaryPlyWithElementsBeforeItsVerticesIsRefused) {
+    const tests::TemporaryFolder folder;
+    const std::string head =
+        "ply\nformat binary_little_endian 1.0\nelement camera 1\nproperty float f\nelement vertex 3\n"
+        "property float x\nproperty float y\nproperty float z\nelement face 1\n"
+        "property list uchar int vertex_indices\nend_header\n";
+    EXPECT_THAT(refusal(write(folder / "t.ply",
+                              head + raw<float>({7, 0, 0, 0, 3, 0, 0, 0, 4, 0}) + "\3" + raw<std::int32_t>({0, 1, 2}))),
+                HasSubstr("'camera' before its vertices"));
 }
 
 TEST(MeshFile, TransformsOfNodesAreAppliedAndVIsUpInGltfToo) {

@@ -16,6 +16,8 @@
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
 
+#include "exporter/files.h"
+#include "exporter/mesh/mended_ply.h"
 #include "exporter/mesh/mesh_file.h"
 #include "exporter/mesh/mesh_maker.h"
 
@@ -79,7 +81,10 @@ Mesh import_with_assimp(const std::string &path) {
                                                             aiComponent_COLORS | aiComponent_BONEWEIGHTS |
                                                             aiComponent_ANIMATIONS | aiComponent_TEXTURES |
                                                             aiComponent_LIGHTS | aiComponent_CAMERAS);
-    const aiScene *scene = importer.ReadFile(path, aiProcess_RemoveComponent);
+    const std::string mended = mended_ply(read_file(path));
+    const aiScene *scene =
+        mended.empty() ? importer.ReadFile(path, aiProcess_RemoveComponent)
+                       : importer.ReadFileFromMemory(mended.data(), mended.size(), aiProcess_RemoveComponent, "ply");
     if (!scene) {
         const std::string reason = importer.GetErrorString();
         if (reason == "std::bad_alloc") throw std::bad_alloc();
