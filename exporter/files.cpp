@@ -10,11 +10,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <OpenImageIO/hash.h>
-#include <OpenImageIO/strutil.h>
 #include <fmt/format.h>
 
 #include "exporter/descriptor.h"
+#include "exporter/sha1.h"
 #include "scenes/error.h"
 
 namespace threefold {
@@ -108,8 +107,6 @@ void make_folder(const fs::path &path) {
     if (::access(folder.c_str(), W_OK | X_OK) != 0) throw_failed("write to folder", folder, errno);
 }
 
-std::string content_hash(std::string_view bytes) {
-    return OIIO::Strutil::lower(OIIO::SHA1::digest(bytes.data(), bytes.size()));
-}
+std::string content_hash(std::string_view bytes) { return sha1(bytes); }
 
 } // namespace threefold

@@ -17,7 +17,7 @@ std::string read_file(const std::filesystem::path &path);
 std::int64_t require_readable_file(const std::filesystem::path &path);
 /// Makes the folder (and its parents); throws Error(input_output) when it cannot be made or written to.
 void make_folder(const std::filesystem::path &path);
-/// 40 hexadecimal digits (SHA-1, through OpenImageIO): a name for content, not a defence.
+/// 40 hexadecimal digits (SHA-1): a name for content, not a defence.
 std::string content_hash(std::string_view bytes);
 
 } // namespace threefold

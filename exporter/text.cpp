@@ -18,4 +18,10 @@ std::string reason(std::string text) {
     return text.empty() ? "unknown reason" : text;
 }
 
+std::string lower_case(std::string text) {
+    for (char &c : text)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return text;
+}
+
 } // namespace threefold

@@ -10,5 +10,7 @@ namespace threefold {
 std::string one_line(std::string text);
 /// The same of what a program or a library says went wrong; "unknown reason" where it says nothing.
 std::string reason(std::string text);
+/// A to Z become a to z.
+std::string lower_case(std::string text);
 
 } // namespace threefold

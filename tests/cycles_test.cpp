@@ -3,6 +3,7 @@
 // THREEFOLD_UPDATE_GOLDEN=1 rewrites tests/cycles_golden.
 #include "exporter/blender/cycles.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>

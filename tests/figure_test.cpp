@@ -8,11 +8,15 @@
 #include <glm/geometric.hpp>
 
 #include "scenes/catalogue/composition.h"
+#include "scenes/catalogue/painted_robe.h"
 #include "scenes/error.h"
 #include "scenes/figure/film_camera.h"
 #include "scenes/figure/hand.h"
+#include "scenes/figure/hand_shape.h"
 #include "scenes/figure/light.h"
+#include "scenes/figure/painted_relief.h"
 #include "scenes/figure/relief.h"
+#include "scenes/figure/stored_figure.h"
 #include "scenes/geometry.h"
 #include "scenes/validate.h"
 #include "tests/catalogue_scene.h"
@@ -148,6 +152,18 @@ TEST(Figure, IsTheSameEveryTime) {
     EXPECT_EQ(a.triangles, b.triangles);
     EXPECT_EQ(holding_hand(Vec3(0), 68).vertices_mm, holding_hand(Vec3(0), 68).vertices_mm);
     EXPECT_EQ(noise({1.25, -3.5}, 3, 7), noise({1.25, -3.5}, 3, 7));
+}
+
+TEST(Figure, IsStoredAsItIsMade) {
+    const Mesh stored = stored_hand_shape(), made = make_hand_shape();
+    EXPECT_TRUE(stored.vertices_mm == made.vertices_mm);
+    EXPECT_TRUE(stored.triangles == made.triangles);
+    EXPECT_TRUE(stored_heights() == paint_heights(ReliefGrid(usual_relief_columns)));
+    EXPECT_TRUE(stored_relief_texture() == paint_relief_texture());
+    EXPECT_TRUE(stored_robe_texture() == paint_robe_texture());
+    const std::vector<SceneRecipe> scenes = built_in_scenes();
+    const Parameters usual(find_scene(scenes, "salvator").parameters, Preset::text);
+    EXPECT_EQ(usual.number("robe.relief_resolution"), usual_relief_columns);
 }
 
 TEST(Figure, ScenesAreMeaningfulUnderBothPresetsPaintedOrInColoursOfIdentity) {

@@ -3,7 +3,9 @@
 // needed, our tracer makes them, which tries the way they take and says nothing of agreement.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 

@@ -3,11 +3,11 @@
 #include <thread>
 #include <unistd.h>
 
-#include <OpenImageIO/oiioversion.h>
 #include <boost/version.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "exporter/image/load_pictures.h"
 #include "exporter/mesh/mesh_file.h"
 #include "exporter/temporary_folder.h"
 #include "tools/commands.h"
@@ -21,7 +21,7 @@ std::vector<std::pair<std::string, std::string>> library_versions() {
         {"threefold", THREEFOLD_VERSION},
         {"Embree", tracer::embree_version()},
         {"Assimp", assimp_version()},
-        {"OpenImageIO", OIIO_VERSION_STRING},
+        {"OpenImageIO", THREEFOLD_OPENIMAGEIO_VERSION},
         {"Boost", fmt::format("{}.{}.{}", BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000, BOOST_VERSION % 100)},
         {"fmt", fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)},
         {"nlohmann-json", fmt::format("{}.{}.{}", NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
@@ -63,6 +63,14 @@ Exit command_doctor(const Shop &shop) {
 
     const TemporaryFolder folder;
     Exit exit = Exit::holds;
+    try {
+        const LoadedPictures &pictures = loaded_pictures();
+        fmt::print("{:<14} OpenImageIO {} ({})\n", "picture files", pictures.module->openimageio_version,
+                   pictures.path.string());
+    } catch (const Error &error) {
+        fmt::print("{:<14} cannot be read: {}\n", "picture files", error.what());
+        exit = Exit::input_output;
+    }
     for (const Witness &w : find_witnesses(witness_names())) {
         if (!w.problem.empty()) {
             fmt::print("{:<14} does not work: {}\n", w.name, w.problem);

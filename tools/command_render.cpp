@@ -87,7 +87,7 @@ Exit command_render(const Shop &shop, const RenderRequest &request) {
             }
             return render(witness, job,
                           {request.keep.value_or(temporary.path()), label, tracer, time_limit,
-                           [&](double share) { progress.update(witness.name, share, label); }});
+                           [&](double share) { progress.update(witness.name, share, label); }, request.keep.has_value()});
         } catch (const Error &error) {
             // The log goes away with the temporary folder.
             if (request.keep || !witness.adapter || !error.hint().empty()) throw;

@@ -22,6 +22,6 @@ set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # python3-numpy: Blender's glTF exporter needs it, and its package only recommends it.
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "blender, povray, python3-numpy")
-# What a program needs that links the static library. openimageio-tools: its CMake files insist on the programs.
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "g++, cmake, libembree-dev, libassimp-dev, libopenimageio-dev, openimageio-tools, libtbb-dev, libboost-dev, libglm-dev, nlohmann-json3-dev, libfmt-dev, libpugixml-dev")
+# What a program needs that links the static library.
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "g++, cmake, libembree-dev, libassimp-dev, libopenexr-dev, libpng-dev, zlib1g-dev, libtbb-dev, libboost-dev, libglm-dev, nlohmann-json3-dev, libfmt-dev, libpugixml-dev")
 include(CPack)

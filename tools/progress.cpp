@@ -82,6 +82,19 @@ void Progress::draw(bool force) {
     last_draw_ = time;
 }
 
+void Progress::print(const std::string &line) {
+    if (quiet_) return;
+    std::string text;
+    if (terminal_ && drawn_) text += fmt::format("\033[{}A\r\033[J", lines_.size());
+    text += line + "\n";
+    std::fputs(text.c_str(), stderr);
+    if (terminal_ && drawn_) {
+        drawn_ = false; // the bars begin anew below the line
+        draw(true);
+    }
+    std::fflush(stderr);
+}
+
 void Progress::finish() {
     if (drawn_) draw(true);
     quiet_ = true;

@@ -34,6 +34,8 @@ public:
     Progress &operator=(const Progress &) = delete;
 
     void update(const std::string &name, double share, const std::string &now);
+    /// A line of text above the bars.
+    void print(const std::string &line);
     /// Leaves the bars as they stand and goes to the next line.
     void finish();
 

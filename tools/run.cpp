@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstdio>
 #include <fcntl.h>
 #include <iostream>
+#include <system_error>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Pictures on disk, through OpenImageIO. Every writer makes the file appear whole or not at all.
+// Pictures on disk: read by OpenImageIO, in a module that is loaded when first needed (load_pictures.h). Every writer
+// makes the file appear whole or not at all.
 #pragma once
 
 #include <filesystem>

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <system_error>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -293,8 +294,8 @@ namespace {
 
 using mitsuba::Tree;
 
-ParameterSpec number(std::string name, std::string description, double value, double least, double greatest,
-                     bool whole = false) {
+ParameterSpec file_parameter(std::string name, std::string description, double value, double least, double greatest,
+                             bool whole = false) {
     return {.name = std::move(name),
             .description = std::move(description),
             .text = value,
@@ -321,18 +322,18 @@ double said_number(const Tree &tree, const std::string &key, double otherwise, d
 
 std::vector<ParameterSpec> parameters_in(const Tree &tree) {
     std::vector<ParameterSpec> all{
-        number("file.unit_mm", "length of one unit of the file (it does not say; the study's are centimetres)",
-               said_number(tree, "unit_mm", 10, 1e-9, 1e9), 1e-9, 1e9),
-        number("image.width_px", "width of the picture (0: as the file says)", 0, 0, 1e6, true),
-        number("image.height_px", "height of the picture (0: as the file says)", 0, 0, 1e6, true),
-        number("environment.radiance", "radiance of the surroundings (-1: as the file says)", -1, -1, 1e6),
-        number("environment.dome_directions",
-               "parallel lights that stand for the environment's light on surfaces (0: 48 where there are any)",
-               said_number(tree, "dome_directions", 0, 0, 10'000), 0, 10'000, true),
-        number("glass.shadow_transmittance", "share of light behind an orb, under glass.shadow=constant",
-               said_number(tree, "shadow_transmittance", 1, 0, 1), 0, 1),
-        number("thin.wall_share", "wall that stands for a sheet without thickness, as a share of the radius", 1e-3,
-               1e-9, 0.1)};
+        file_parameter("file.unit_mm", "length of one unit of the file (it does not say; the study's are centimetres)",
+                       said_number(tree, "unit_mm", 10, 1e-9, 1e9), 1e-9, 1e9),
+        file_parameter("image.width_px", "width of the picture (0: as the file says)", 0, 0, 1e6, true),
+        file_parameter("image.height_px", "height of the picture (0: as the file says)", 0, 0, 1e6, true),
+        file_parameter("environment.radiance", "radiance of the surroundings (-1: as the file says)", -1, -1, 1e6),
+        file_parameter("environment.dome_directions",
+                       "parallel lights that stand for the environment's light on surfaces (0: 48 where there are any)",
+                       said_number(tree, "dome_directions", 0, 0, 10'000), 0, 10'000, true),
+        file_parameter("glass.shadow_transmittance", "share of light behind an orb, under glass.shadow=constant",
+                       said_number(tree, "shadow_transmittance", 1, 0, 1), 0, 1),
+        file_parameter("thin.wall_share", "wall that stands for a sheet without thickness, as a share of the radius",
+                       1e-3, 1e-9, 0.1)};
     ParameterSpec shadow{.name = "glass.shadow",
                          .description = "how light passes glass on its way to a diffuse surface; Mitsuba's path tracer "
                                         "stops it (opaque)",
@@ -365,7 +366,7 @@ std::vector<ParameterSpec> parameters_in(const Tree &tree) {
     }
     for (const auto &[name, value] : tree.defaults)
         if (const auto n = mitsuba::to_number(value); n && !has("default." + name))
-            all.push_back(number("default." + name, "the file's parameter $" + name, *n, -1e12, 1e12));
+            all.push_back(file_parameter("default." + name, "the file's parameter $" + name, *n, -1e12, 1e12));
     return all;
 }
 

@@ -7,6 +7,8 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
+#include <iterator>
 #include <sstream>
 #include <system_error>
 #include <utility>
@@ -18,8 +20,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/strutil.h>
 #include <fmt/format.h>
 
 #include "exporter/descriptor.h"
@@ -47,6 +47,12 @@ std::string reason(int error) { return std::generic_category().message(error); }
 
 [[noreturn]] void throw_not_started(const ChildRequest &request, const std::string &why) {
     throw Error(Exit::input_output, fmt::format("{} cannot be started: {}", request.program.string(), why));
+}
+
+/// Empty when it cannot be read.
+std::string text_of(const fs::path &path) {
+    std::ifstream in(path);
+    return {std::istreambuf_iterator<char>(in), {}};
 }
 
 bool is_program(const fs::path &path) {
@@ -88,16 +94,14 @@ public:
 
     /// The kernel starts a child's peak at its parent's size, so the peak is also read where it is right: as of now.
     double peak_memory_kb() const {
-        std::string text;
-        OIIO::Filesystem::read_text_file(fmt::format("/proc/{}/status", leader_), text);
+        const std::string text = text_of(fmt::format("/proc/{}/status", leader_));
         const std::size_t found = text.find("VmHWM:");
         return found == text.npos ? 0 : std::strtod(text.c_str() + found + std::strlen("VmHWM:"), nullptr);
     }
 
     /// Of the leader so far, in clock ticks; nothing when it cannot be read.
     std::optional<double> cpu_seconds() const {
-        std::string text;
-        OIIO::Filesystem::read_text_file(fmt::format("/proc/{}/stat", leader_), text);
+        const std::string text = text_of(fmt::format("/proc/{}/stat", leader_));
         const std::size_t name_end = text.rfind(')'); // the name may hold anything
         if (name_end == text.npos) return std::nullopt;
         std::istringstream fields(text.substr(name_end + 1));
@@ -329,7 +333,7 @@ ChildResult run_child(const ChildRequest &request) {
                     fmt::format("the end of {} was taken by another part of this program", request.program.string()));
     // setpriv's own way to say that it could not start the program.
     if (WIFEXITED(status) && (WEXITSTATUS(status) == 126 || WEXITSTATUS(status) == 127) &&
-        OIIO::Strutil::starts_with(output.first_line(), "setpriv: "))
+        output.first_line().starts_with("setpriv: "))
         throw_not_started(request, output.first_line());
 
     result.cpu_seconds_at_mark = output.cpu_seconds_at_mark();
@@ -353,12 +357,15 @@ std::optional<fs::path> find_program(std::string_view name) {
         return is_program(path) ? std::optional(path) : std::nullopt;
     }
     const char *variable = std::getenv("PATH");
-    for (const std::string &folder : OIIO::Strutil::splits(variable ? variable : "/usr/local/bin:/usr/bin:/bin", ":")) {
+    std::string_view folders(variable ? variable : "/usr/local/bin:/usr/bin:/bin");
+    for (;;) {
+        const std::size_t end = std::min(folders.find(':'), folders.size());
         // An empty entry means the current folder.
-        const fs::path path = fs::absolute(fs::path(folder.empty() ? "." : folder) / name);
+        const fs::path path = fs::absolute(fs::path(end == 0 ? "." : folders.substr(0, end)) / name);
         if (is_program(path)) return path;
+        if (end == folders.size()) return std::nullopt;
+        folders.remove_prefix(end + 1);
     }
-    return std::nullopt;
 }
 
 } // namespace threefold

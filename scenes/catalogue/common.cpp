@@ -13,8 +13,6 @@ namespace threefold {
 
 namespace {
 
-constexpr double tiny_mm = 1e-9, huge_mm = 1e9;
-
 ParameterSpec word(std::string name, std::string description, std::vector<std::string> choices) {
     ParameterSpec s{std::move(name), std::move(description)};
     s.choices = std::move(choices);
@@ -118,7 +116,7 @@ Camera make_camera(const Parameters &p) {
 Quad make_card(const Parameters &p) {
     const double half = p.number("card.half_width_mm");
     Quad card{{0, 0, -p.number("card.distance_mm")}, {half, 0, 0}, {0, half, 0}, CoordinateCard{}};
-    if (p.word("card.surface") == "textured") card.surface = Emissive{robe_texture(512)};
+    if (p.word("card.surface") == "textured") card.surface = Emissive{robe_texture()};
     return card;
 }
 

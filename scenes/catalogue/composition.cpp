@@ -209,8 +209,8 @@ Specs composition_parameters() {
          .greatest = 10},
         {.name = "robe.relief_resolution",
          .description = "vertices in a row of the generated relief",
-         .text = 240,
-         .published = 240,
+         .text = figure::usual_relief_columns,
+         .published = figure::usual_relief_columns,
          .least = 2,
          .greatest = 2000,
          .whole = true}};

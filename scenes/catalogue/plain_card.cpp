@@ -40,7 +40,7 @@ Scene build_plain_card(const Parameters &p) {
     const double half = p.number("card.half_width_mm");
     Quad card{{0, 0, -p.number("card.distance_mm")}, {half, 0, 0}, {0, half, 0}, Emissive{}};
     const bool plain = p.word("card.surface") == "plain";
-    card.surface = Emissive{plain ? Paint(Rgb(p.number("card.radiance"))) : Paint(robe_texture(512))};
+    card.surface = Emissive{plain ? Paint(Rgb(p.number("card.radiance"))) : Paint(robe_texture())};
     Scene scene;
     scene.objects = {{"orb", make_shell(p)}, {"card", card}};
     scene.environment = make_environment(p);

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "scenes/figure/relief.h"
 
+#include "scenes/figure/painted_relief.h"
+#include "scenes/figure/stored_figure.h"
+
 namespace threefold::figure {
 
 namespace {
-
-constexpr int texture_width = 704, texture_height = 1036;
-
-/// Texture coordinates are those of the whole picture.
-constexpr Vec2 picture_high{1, picture_height};
-Vec2 place_at(Vec2 uv) { return (2.0 * uv - 1.0) * picture_high; }
-Vec2 uv_at(Vec2 place) { return 0.5 * (place / picture_high + 1.0); }
 
 /// A cliff between two cells would be a row of teeth: it is spread over this (standard deviation).
 constexpr double softness = 0.008;
@@ -48,19 +44,14 @@ Vec2 Standpoint::place(Vec3 point_mm) const {
 }
 
 Mesh relief(const Standpoint &standpoint, int columns) {
-    const Vec2 size = relief_high - relief_low;
-    const int rows = std::max(2, static_cast<int>(std::lround((columns - 1) * size.y / size.x)) + 1);
-    const Painting painting;
+    const ReliefGrid grid(columns);
+    const int rows = grid.rows;
     Mesh mesh;
-    std::vector<double> heights;
     for (int row = 0; row < rows; ++row)
-        for (int column = 0; column < columns; ++column) {
-            const Vec2 share(static_cast<double>(column) / (columns - 1), static_cast<double>(row) / (rows - 1));
-            const Vec2 place = relief_low + share * size;
-            mesh.uv.push_back(uv_at(place));
-            heights.push_back(painting.at(place).height);
-        }
-    const double cell = size.x / (columns - 1); // a pass has the variance of half a cell squared
+        for (int column = 0; column < columns; ++column) mesh.uv.push_back(uv_at(grid.place(column, row)));
+    std::vector<double> heights = columns == usual_relief_columns ? stored_heights() : paint_heights(grid);
+    const double cell =
+        (relief_high.x - relief_low.x) / (columns - 1); // a pass has the variance of half a cell squared
     const auto passes = std::min(64L, std::lround(2 * softness * softness / (cell * cell)));
     for (long i = 0; i < passes; ++i) soften(heights, columns, rows);
     for (std::size_t i = 0; i < heights.size(); ++i)
@@ -85,20 +76,8 @@ Mesh relief(const Standpoint &standpoint, int columns) {
 }
 
 std::shared_ptr<const Texture> relief_texture() {
-    // Always the same: made once a process.
-    static const std::shared_ptr<const Texture> texture = [] {
-        const Painting painting;
-        auto image = std::make_shared<Texture>(Texture{texture_width, texture_height, {}});
-        image->rgb.reserve(static_cast<std::size_t>(texture_width) * texture_height * 3);
-        for (int row = 0; row < texture_height; ++row)
-            for (int column = 0; column < texture_width; ++column) {
-                const Rgb colour =
-                    painting.at(place_at({(column + 0.5) / texture_width, 1 - (row + 0.5) / texture_height})).colour;
-                for (int k = 0; k < 3; ++k)
-                    image->rgb.push_back(static_cast<std::uint16_t>(std::lround(colour[k] * 65535)));
-            }
-        return image;
-    }();
+    static const auto texture =
+        std::make_shared<const Texture>(Texture{relief_texture_width, relief_texture_height, stored_relief_texture()});
     return texture;
 }
 

@@ -21,6 +21,9 @@ struct Standpoint {
     Vec2 place(Vec3 point_mm) const;
 };
 
+/// What no parameter changes; others take longer.
+inline constexpr int usual_relief_columns = 240;
+
 /// `columns` vertices a row (at least 2); rows as make its cells square. Texture coordinates are those of the whole
 /// picture, so that any picture of this composition fits it; grey.
 Mesh relief(const Standpoint &standpoint, int columns);

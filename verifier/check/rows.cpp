@@ -12,7 +12,10 @@ namespace threefold {
 
 namespace {
 
-constexpr int most_replicates = 96; ///< of a second look
+constexpr int most_replicates = 96;             ///< of a second look at numbers
+constexpr int most_replicates_of_pictures = 32; ///< whole pictures cost more
+/// Less than this share of a difference's variance is another's to reduce.
+constexpr double least_share_of_noise = 0.1;
 /// How many times the replicates are made that would decide if mean and spread stayed as they are: they do not.
 constexpr double second_look_reserve = 2;
 
@@ -49,6 +52,17 @@ std::map<std::string, std::vector<double>> readings_of(const Experiment &e, cons
             add(e.measure_pair(images[k], other->rendered.images.at(k), camera));
     }
     return readings;
+}
+
+/// Of the variance of a difference between two renderers, by their own numbers.
+double share_of_noise(const std::string &witness, const Row &difference, const std::vector<Row> &rows) {
+    const auto own = std::ranges::find_if(rows, [&](const Row &row) {
+        return row.experiment == difference.experiment && row.quantity == difference.quantity &&
+               row.witness == witness && row.versus.empty();
+    });
+    if (own == rows.end() || !(difference.measured.standard_error > 0)) return 1;
+    const double share = own->measured.standard_error / difference.measured.standard_error;
+    return share * share;
 }
 
 /// Few replicates may have put a number nearer to the edge than it lies: as far from it as one standard error allows.
@@ -117,6 +131,7 @@ int replicates_for_second_look(const std::string &witness, int replicates, const
     int wanted = 0;
     for (const Row &row : rows) {
         if (row.verdict != Verdict::undecided || (row.witness != witness && row.versus != witness)) continue;
+        if (!row.versus.empty() && share_of_noise(witness, row, rows) < least_share_of_noise) continue;
         const auto enough = [&row](const Estimate &measured) {
             const auto n = replicates_to_decide(measured, row.relation, row.expected, row.tolerance, second_look);
             return n ? *n : std::numeric_limits<double>::infinity();
@@ -125,6 +140,21 @@ int replicates_for_second_look(const std::string &witness, int replicates, const
             wanted = std::max(wanted, std::min(most_replicates, static_cast<int>(std::ceil(n * second_look_reserve))));
         else if (enough(luckier(row)) <= most_replicates)
             wanted = most_replicates;
+    }
+    return wanted > replicates ? wanted : 0;
+}
+
+int replicates_for_second_look(const std::string &witness, int replicates, const std::vector<TileComparison> &tiles) {
+    int wanted = 0;
+    for (const TileComparison &t : tiles) {
+        if (t.verdict != Verdict::undecided || (t.witness != witness && t.versus != witness)) continue;
+        const double share = t.witness == witness ? t.noise_of_witness : 1 - t.noise_of_witness;
+        if (share < least_share_of_noise) continue;
+        if (!t.replicates_to_decide || *t.replicates_to_decide > most_replicates_of_pictures)
+            wanted = most_replicates_of_pictures;
+        else
+            wanted = std::max(wanted, std::min(most_replicates_of_pictures,
+                                               static_cast<int>(*t.replicates_to_decide * second_look_reserve)));
     }
     return wanted > replicates ? wanted : 0;
 }

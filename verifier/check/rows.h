@@ -33,6 +33,9 @@ std::vector<Row> judged_rows(const Experiment &e, const std::vector<Testimony> &
 /// Of a witness's numbers that are undecided: how many replicates the second look should have in all; 0 where none of
 /// them is worth it: where even the greatest number would not do, were the true mean a standard error off to the good
 /// side.
+/// A difference between two renderers is worth it only to one that has a good part of its noise.
 int replicates_for_second_look(const std::string &witness, int replicates, const std::vector<Row> &rows);
+/// The same of its pictures. `tiles`: judged at `second_look`.
+int replicates_for_second_look(const std::string &witness, int replicates, const std::vector<TileComparison> &tiles);
 
 } // namespace threefold

@@ -5,7 +5,6 @@
 #include <iterator>
 #include <vector>
 
-#include <OpenImageIO/strutil.h>
 #include <fmt/format.h>
 
 #include "verifier/report/html_parts.h"
@@ -27,8 +26,7 @@ bool is_render(const ReportPicture &picture) { return picture.kind == ReportPict
 void add_picture(Out &out, const ReportPicture &picture, const std::string &scene) {
     const auto [width, height] = png_size(picture.png);
     const std::string title = html_text(one_line(picture.title));
-    // OpenImageIO's encoder of Debian 12 takes its own string_view.
-    const std::string data = OIIO::Strutil::base64_encode({picture.png.data(), picture.png.size()});
+    const std::string data = base64(picture.png);
     const std::string marks = marks_overlay(picture.marks, static_cast<double>(width), static_cast<double>(height));
     fmt::format_to(
         std::back_inserter(out),

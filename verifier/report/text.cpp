@@ -95,6 +95,20 @@ std::string html_text(std::string_view text) {
     return out;
 }
 
+std::string base64(std::string_view bytes) {
+    constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    text.reserve((bytes.size() + 2) / 3 * 4);
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
+        std::uint32_t three = 0;
+        for (std::size_t k = 0; k < 3; ++k)
+            three = three << 8 | (k < count ? static_cast<std::uint8_t>(bytes[i + k]) : 0u);
+        for (std::size_t k = 0; k < 4; ++k) text += k <= count ? digits[three >> (18 - 6 * k) & 63] : '=';
+    }
+    return text;
+}
+
 std::string slug(std::string_view text) {
     std::string out;
     for (const char c : text) {
@@ -107,5 +121,7 @@ std::string slug(std::string_view text) {
     }
     return out;
 }
+
+std::string plain(std::string_view text) { return html_text(one_line(text)); }
 
 } // namespace threefold::report

@@ -118,6 +118,15 @@ const char *meaning(RTCError code) {
     }
 }
 
+struct alignas(32) Valid {
+    int lane[lanes];
+    explicit Valid(std::uint32_t active) {
+        for (int l = 0; l < lanes; ++l) lane[l] = (active >> l & 1u) ? -1 : 0;
+    }
+};
+
+} // namespace
+
 /// What Embree reports, from any of its threads; it throws nothing itself.
 class EmbreeErrors {
 public:
@@ -143,15 +152,6 @@ private:
     RTCError code_ = RTC_ERROR_NONE;
     std::string text_;
 };
-
-struct alignas(32) Valid {
-    int lane[lanes];
-    explicit Valid(std::uint32_t active) {
-        for (int l = 0; l < lanes; ++l) lane[l] = (active >> l & 1u) ? -1 : 0;
-    }
-};
-
-} // namespace
 
 struct EmbreeWorld::State {
     Vec3 origin;

@@ -2,6 +2,9 @@
 #include "verifier/witness/witness.h"
 
 #include <algorithm>
+#include <condition_variable>
+#include <mutex>
+#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -40,12 +43,12 @@ Witness witness_of(const Adapter &adapter) {
     return w;
 }
 
-std::string tracer_key(const RenderJob &job, const TracerSettings &settings) {
+std::string tracer_key(const RenderJob &job, const std::string &hash, const TracerSettings &settings) {
     Json replicates = Json::array();
     for (const Replicate &r : job.replicates) replicates.push_back({r.seed, r.film_offset_px.x, r.film_offset_px.y});
     const Json key{
         {"tracer", tracer_revision},
-        {"scene", scene_hash(job.scene)},
+        {"scene", hash},
         {"sampling", static_cast<int>(job.sampling)},
         {"samples", job.samples_per_pixel},
         {"replicates", replicates},
@@ -59,7 +62,9 @@ std::string tracer_key(const RenderJob &job, const TracerSettings &settings) {
 }
 
 std::string program_key(const Witness &witness, const Exported &exported) {
-    std::string all = witness.name + '\0' + witness.installed->version + '\0';
+    std::string all =
+        fmt::format("{}\n{}\n{}\n{} {} {}\n", witness.name, witness.installed->version, witness.adapter->revision,
+                    exported.pictures_per_replicate, exported.supersampling, exported.radiance_scale);
     for (const std::string &argument : exported.arguments) all += argument + '\0';
     for (const ExportedFile &file : exported.files) all += file.name + '\0' + content_hash(file.bytes);
     return content_hash(all);
@@ -175,6 +180,39 @@ std::vector<Witness> find_witnesses(const std::vector<std::string> &names) {
 
 namespace {
 
+/// Two claims may ask for the same pictures at the same time: the second waits, and finds them kept.
+class FolderInUse {
+public:
+    explicit FolderInUse(const std::filesystem::path &folder) : name_(folder.string()) {
+        std::unique_lock lock(mutex());
+        changed().wait(lock, [this] { return !names().contains(name_); });
+        names().insert(name_);
+    }
+    ~FolderInUse() {
+        const std::lock_guard lock(mutex());
+        names().erase(name_);
+        changed().notify_all();
+    }
+    FolderInUse(const FolderInUse &) = delete;
+    FolderInUse &operator=(const FolderInUse &) = delete;
+
+private:
+    static std::mutex &mutex() {
+        static std::mutex m;
+        return m;
+    }
+    static std::condition_variable &changed() {
+        static std::condition_variable c;
+        return c;
+    }
+    static std::set<std::string> &names() {
+        static std::set<std::string> n;
+        return n;
+    }
+
+    std::string name_;
+};
+
 Rendered take_pictures(const Witness &witness, const RenderJob &job, const RenderOptions &options) {
     const MitsubaJob asked = to_mitsuba_job(job, options.label);
     Rendered r;
@@ -204,27 +242,31 @@ Rendered render(const Witness &witness, RenderJob job, const RenderOptions &opti
     std::optional<Exported> exported;
     if (witness.adapter) exported = witness.adapter->compile(job);
 
-    const std::string key = exported ? program_key(witness, *exported) : tracer_key(job, options.tracer);
+    const std::string hash = scene_hash(job.scene);
+    const std::string key = exported ? program_key(witness, *exported) : tracer_key(job, hash, options.tracer);
     const std::string name = fmt::format("{}-{}-{}", options.label, witness.name, key.substr(0, 12));
     const std::filesystem::path folder = options.folder / "renders" / name;
 
+    const FolderInUse in_use(folder);
     std::optional<Rendered> r = cached(folder, key, job);
     if (!r) {
-        make_folder(folder);
+        if (exported || options.keep) make_folder(folder);
         r = exported ? render_by_program(witness, job, *exported, options, folder) : render_by_tracer(job, options);
-        keep(folder, key, *r);
+        if (options.keep) keep(folder, key, *r);
     }
     RenderRecord &record = r->record;
     record.witness = witness.name;
     record.folder = "renders/" + name;
-    if (exported) record.command = fmt::format("{} {}", witness.adapter->program, fmt::join(exported->arguments, " "));
+    if (exported)
+        record.command = fmt::format("{} {} {}", witness.adapter->program, fmt::join(exported->thread_arguments, " "),
+                                     fmt::join(exported->arguments, " "));
     record.accuracy = exported ? exported->accuracy : tracer_accuracy(job, options.tracer);
     record.width_px = job.scene.camera.image_width_px();
     record.height_px = job.scene.camera.image_height_px();
     record.replicates = static_cast<int>(job.replicates.size());
     const bool several = job.sampling == Sampling::box || record.accuracy.random_branches; // else one ray tells all
     record.samples_per_pixel = several ? job.samples_per_pixel : 1;
-    record.scene_hash = scene_hash(job.scene);
+    record.scene_hash = hash;
     return *std::move(r);
 }
 

@@ -45,6 +45,7 @@ struct RenderOptions {
     TracerSettings tracer;
     std::chrono::milliseconds time_limit{std::chrono::minutes(10)};
     std::function<void(double share)> on_progress;
+    bool keep = true; ///< pictures, for a later run; false where the folder goes away
 };
 
 struct Rendered {
@@ -53,7 +54,7 @@ struct Rendered {
 };
 
 /// Renders, or takes the pictures of an earlier run with the same content (inputs, version, settings). Pictures are
-/// kept as lossless 64-bit TIFF; a render counts only once its `done.json` is there.
+/// kept as lossless 64-bit TIFF; a kept render counts only once its `done.json` is there.
 Rendered render(const Witness &witness, RenderJob job, const RenderOptions &options);
 
 } // namespace threefold
