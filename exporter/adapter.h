@@ -27,6 +27,8 @@ struct Adapter {
     std::string (*parse_version)(std::string_view output);
     /// The line of a log that best explains why the program failed; empty if none does.
     std::string (*explain_failure)(std::string_view log);
+    /// Changes whenever the same files and arguments would be read as another picture: a kept picture is then old.
+    int revision = 1;
     /// Where glass splits rays, or many lights fall on a surface: samples for one of a renderer that follows every
     /// branch, for about the same noise.
     int sample_factor = 1;

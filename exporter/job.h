@@ -69,11 +69,12 @@ struct ExportedFile {
 /// A job in another program's language: a pure function of the job.
 struct Exported {
     std::vector<ExportedFile> files;
-    std::vector<std::string> arguments; ///< of the program, run inside the folder that holds `files`
-    std::vector<std::string> outputs;   ///< pictures it will write, linear and unfiltered, replicate by replicate
-    int pictures_per_replicate = 1;     ///< a replicate is the mean of this many of them
-    int supersampling = 1;              ///< pictures are this many times wider and higher: average blocks
-    double radiance_scale = 1;          ///< a stored value is radiance times this
+    std::vector<std::string> arguments;        ///< of the program, run inside the folder that holds `files`
+    std::vector<std::string> thread_arguments; ///< come before them; they change no picture
+    std::vector<std::string> outputs; ///< pictures it will write, linear and unfiltered, replicate by replicate
+    int pictures_per_replicate = 1;   ///< a replicate is the mean of this many of them
+    int supersampling = 1;            ///< pictures are this many times wider and higher: average blocks
+    double radiance_scale = 1;        ///< a stored value is radiance times this
     Accuracy accuracy;
 };
 

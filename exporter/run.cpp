@@ -140,7 +140,8 @@ RunOutcome run_exported(const Adapter &adapter, const InstalledRenderer &install
     const Run run{adapter, options.folder / fmt::format("{}.log", adapter.name)};
     ChildRequest request;
     request.program = installed.program;
-    request.arguments = exported.arguments;
+    request.arguments = exported.thread_arguments;
+    request.arguments.insert(request.arguments.end(), exported.arguments.begin(), exported.arguments.end());
     request.folder = options.folder;
     request.log = run.log;
     request.time_limit = options.time_limit;

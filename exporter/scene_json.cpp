@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "exporter/scene_json.h"
 
+#include <nlohmann/json.hpp>
+
 #include "exporter/files.h"
 
 namespace threefold {

@@ -2,6 +2,7 @@
 #include "exporter/text.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace threefold {
 
@@ -9,6 +10,11 @@ std::string one_line(std::string text) {
     std::replace_if(
         text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 127; }, ' ');
     while (!text.empty() && text.back() == ' ') text.pop_back();
+    return text;
+}
+
+std::string reason(std::string text) {
+    text = one_line(std::move(text));
     return text.empty() ? "unknown reason" : text;
 }
 

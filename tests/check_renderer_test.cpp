@@ -3,13 +3,16 @@
 // that was killed goes on. The tests share one folder, so that what one has rendered the next finds in the cache.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
+#include <cctype>
 #include <csignal>
 #include <fstream>
 #include <map>
 #include <optional>
 #include <spawn.h>
 #include <sys/wait.h>
+#include <system_error>
 #include <thread>
 
 #include "exporter/files.h"

@@ -102,8 +102,11 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"render hollow --with povray --spp 2000000000", 65, "read back"},
         BadInput{"check salvator --mitsuba a.xml", 64, "name no claims"},
         BadInput{"check --mitsuba a.xml --preset text", 64, "--preset"}, BadInput{"check --mitsuba a.xml", 74, "a.xml"},
-        BadInput{"optics --index 0.5", 65, "index"}, BadInput{"optics --impact-mm nan", 65, "impact"},
-        BadInput{"optics --rows missing.json", 74, "missing.json"}));
+        BadInput{"render hollow --seed -1", 64, "from 0 to 2^64 - 1"},
+        BadInput{"render hollow --seed 18446744073709551616", 64, "--seed"},
+        BadInput{"check --seed -1", 64, "from 0 to 2^64 - 1"}, BadInput{"power --seed -1", 64, "from 0 to 2^64 - 1"},
+        BadInput{"render hollow --size 8x8 --spp 2147483648", 64, "--spp"}, BadInput{"optics --index 0.5", 65, "index"},
+        BadInput{"optics --impact-mm nan", 65, "impact"}, BadInput{"optics --rows missing.json", 74, "missing.json"}));
 
 TEST(Cli, AMeshThatIsNoneIsAnsweredInOneLineWhateverItsName) {
     const tests::TemporaryFolder folder;
@@ -255,7 +258,8 @@ TEST(Cli, AFullDiskIsExit74AndLeavesNothingUnderAFinalName) {
     EXPECT_EQ(answer.exit_code, 74) << answer.err;
     EXPECT_FALSE(fs::exists(folder / "big.exr"));
     EXPECT_TRUE(fs::is_empty(folder / "."));
-    EXPECT_EQ(run(folder, "list > /dev/full; exit $?").exit_code, 74);
+    for (const char *command : {"list", "--help", "--version", "check --help", "--man-page", "--completion"})
+        EXPECT_EQ(run(folder, std::string(command) + " > /dev/full; exit $?").exit_code, 74) << command;
 }
 
 TEST(Cli, SurvivesStreamsThatCannotBeWritten) {
@@ -279,6 +283,21 @@ TEST(Cli, OddScenesAreNeverHeldAgainstTheRenderer) {
             << set << ": " << answer.exit_code << answer.err;
         for (const auto &claim : nlohmann::json::parse(answer.out).at("claims"))
             EXPECT_TRUE(claim.at("blamed").empty()) << set << ": " << claim.at("name");
+    }
+}
+
+/// `timeout` asks it to stop after a second, and kills it, with exit 137, if it has not done so long after.
+TEST(Cli, StopsInsideAPixelOfVeryManySamples) {
+    const tests::TemporaryFolder folder;
+    for (const char *options : {"hollow --size 4x4 --spp 500000000", "hollow --size 4x4 --spp 2147483647",
+                                "hollow --size 4x4 --spp 500000000 --precision float",
+                                "solid --size 4x4 --spp 536870912 --set environment.radiance=1 image.orb_share=0.01",
+                                "setup --size 4x4 --spp 500000000", "furnace --size 4x4 --spp 500000000"}) {
+        const Answer answer = run(folder, std::string("render ") + options + " --threads 1 -q -o a.exr",
+                                  "timeout --preserve-status -k 20 1");
+        EXPECT_EQ(answer.exit_code, 130) << options << answer.err;
+        EXPECT_THAT(answer.err, HasSubstr("interrupted")) << options;
+        EXPECT_FALSE(fs::exists(folder / "a.exr")) << options;
     }
 }
 

@@ -3,6 +3,7 @@
 // THREEFOLD_UPDATE_GOLDEN=1 rewrites tests/cycles_golden.
 #include "exporter/blender/cycles.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -183,6 +184,11 @@ TEST(CyclesScript, refuses_what_it_cannot_say_exactly) {
     job.scene.lights = {Directional{}};
     job.scene.glass_shadow.rule = GlassShadow::Rule::caustic;
     EXPECT_THAT(refusal(job), HasSubstr("caustics through glass are not supported"));
+
+    job = shell_before_card();
+    job.sampling = Sampling::box;
+    job.samples_per_pixel = (1 << 24) + 1;
+    EXPECT_THAT(refusal(job), HasSubstr("16777217 samples per pixel are more than the 16777216"));
 
     Mesh bare;
     bare.vertices_mm = {{0, 0, -100}, {1, 0, -100}, {0, 1, -100}};

@@ -2,6 +2,7 @@
 // Exports that need no other program: OBJ, POV-Ray's folder, STMap, lists of losses, and the folder they go to.
 #include "exporter/export/delivery.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>

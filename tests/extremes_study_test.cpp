@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The extremes study: its quad reference, its judge, and our own tracer held to what it answers for.
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <limits>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Each fault changes what it says and nothing else.
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <set>

@@ -2,6 +2,7 @@
 // The study's figures by the tracer alone, a few pixels wide.
 #include "verifier/gallery/gallery.h"
 
+#include <algorithm>
 #include <set>
 
 #include <gmock/gmock.h>

@@ -2,6 +2,7 @@
 // The study's lights, the environment's dome, and how lights are shared among samples.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 

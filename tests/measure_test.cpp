@@ -2,6 +2,7 @@
 // Pixels to physical quantities, on pictures whose truth is known because the test drew them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "verifier/measure/edges.h"

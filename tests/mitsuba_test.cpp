@@ -3,7 +3,9 @@
 // needed, our tracer makes them, which tries the way they take and says nothing of agreement.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -174,6 +176,55 @@ TEST(Mitsuba, ASceneWithoutLightIsRefusedAndCanBeGivenOne) {
     const std::string body = dark + sphere(1, glass("1.5", "1"));
     EXPECT_THAT(refusal(folder, body), HasSubstr("environment.radiance=1"));
     EXPECT_EQ(read(folder, body, {{"environment.radiance", "1"}}).environment->radiance, Rgb(1));
+}
+
+TEST(Mitsuba, ASizeThatNeedsAFilmBeyondAllNumbersIsRefused) {
+    const tests::TemporaryFolder folder;
+    const std::string cropped = R"(<sensor type="perspective"><float name="fov" value="10"/><transform name="toWorld">
+<lookat target="0,0,0" origin="90,0,0" up="0,1,0"/></transform><film type="hdrfilm"><integer name="width" value="100000"/>
+<integer name="height" value="100"/><integer name="crop_width" value="1"/><integer name="crop_height" value="1"/>
+</film></sensor><emitter type="constant"><spectrum name="radiance" value="1"/></emitter>)";
+    EXPECT_EQ(read(folder, cropped, {{"image.width_px", "2"}}).camera.width_px, 200000);
+    for (const std::vector<Assignment> &size :
+         {std::vector<Assignment>{{"image.width_px", "30000"}, {"image.height_px", "10"}},
+          {{"image.height_px", "1e6"}}})
+        try {
+            read(folder, cropped, size);
+            ADD_FAILURE() << "was read";
+        } catch (const Error &error) {
+            EXPECT_EQ(error.code(), Exit::bad_data);
+            EXPECT_THAT(error.what(), HasSubstr("the whole film would have"));
+        }
+}
+
+TEST(Mitsuba, OffersTheShadowsOfGlassThatRenderersCanDoAndNoOther) {
+    const tests::TemporaryFolder folder;
+    std::ofstream(folder / "scene.xml") << "<scene version=\"0.5.0\">" << camera << "</scene>";
+    const SceneRecipe recipe = mitsuba_scene(folder / "scene.xml", [](const std::string &) {});
+    const auto shadow = std::ranges::find(recipe.parameters, "glass.shadow", &ParameterSpec::name);
+    ASSERT_NE(shadow, recipe.parameters.end());
+    EXPECT_THAT(shadow->choices, ElementsAre("opaque", "none", "constant"));
+}
+
+TEST(Mitsuba, WhatOurOwnInstructionSaysAndCannotBeDoneIsRefused) {
+    const auto refused = [](const std::string &instruction) {
+        const tests::TemporaryFolder folder;
+        std::ofstream(folder / "scene.xml")
+            << "<?threefold " << instruction << "?><scene version=\"0.5.0\">" << camera << "</scene>";
+        try {
+            mitsuba_scene(folder / "scene.xml", [](const std::string &) {});
+        } catch (const Error &error) {
+            EXPECT_EQ(error.code(), Exit::bad_data);
+            return std::string(error.what());
+        }
+        return std::string("was read");
+    };
+    EXPECT_THAT(refused("glass_shadow=\"caustic\""), HasSubstr("glass_shadow=\"caustic\"?>: no renderer can do this"));
+    EXPECT_THAT(refused("glass_shadow=\"\""), HasSubstr("glass_shadow=\"\"?>"));
+    EXPECT_THAT(refused("unit_mm=\"-1\""), HasSubstr("must be a number from 1e-09"));
+    EXPECT_THAT(refused("dome_directions=\"many\""), HasSubstr("must be a number from 0 to 10000"));
+    EXPECT_THAT(refused("unit_mm=10"), HasSubstr("cannot be read"));
+    EXPECT_EQ(refused("unit_mm=\"10\" glass_shadow=\"none\""), "was read");
 }
 
 TEST(Mitsuba, HostileFilesAreAnsweredNotFollowed) {

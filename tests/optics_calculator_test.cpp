@@ -14,6 +14,7 @@
 #include "scenes/error.h"
 #include "tools/command_optics.h"
 #include "verifier/optics/concentric.h"
+#include "verifier/optics/quad.h"
 
 namespace threefold::optics {
 namespace {

@@ -11,6 +11,7 @@
 #include <rapidcheck.h>
 
 #include "verifier/optics/concentric.h"
+#include "verifier/optics/quad.h"
 
 namespace threefold::optics {
 namespace {

@@ -28,7 +28,7 @@ expect("${control}" "\nRecommends: blender, povray")
 expect("${control}" "\nSuggests: [^\n]*libembree-dev")
 run(unused dpkg-deb --extract ${package} root)
 foreach(file bin/threefold include/threefold/tools/run.h include/threefold/verifier/claims/claim.h
-        share/man/man1/threefold.1 share/doc/threefold/copyright share/doc/threefold/example/flask.cpp)
+        share/man/man1/threefold.1 share/bash-completion/completions/threefold share/doc/threefold/copyright share/doc/threefold/example/flask.cpp)
   if(NOT EXISTS ${WORK}/root/usr/${file})
     message(FATAL_ERROR "the package lacks ${file}")
   endif()

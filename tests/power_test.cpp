@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The other judges' formulas on known pictures, the search for the smallest fault, and a small power study.
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 

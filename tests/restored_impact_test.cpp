@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include <fmt/format.h>
 
 #include "tools/restored_impact.h"

@@ -2,6 +2,7 @@
 // What claims leave out: the formulas against others, every claim's answer to every effect, and that check says what is
 // required.
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -4,10 +4,12 @@
 
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "scenes/texture.h"
 #include "verifier/tracer/paints.h"
+#include "verifier/tracer/pixel.h"
 #include "verifier/tracer/shadow_rays.h"
 #include "verifier/tracer/tracer.h"
 
@@ -253,6 +255,14 @@ TEST(Sights, AreNoneForATextureOfOneTexelWhichIsSeenAllTheSame) {
     RenderJob job;
     job.scene = scene;
     EXPECT_LT(glm::length(trace(job).images[0].at(1, 2) - Rgb(1, 0, 0.2)), 1e-12);
+}
+
+TEST(SamplesOfAPixel, AreAPositiveNumberHoweverManyAreAsked) {
+    constexpr int most = std::numeric_limits<int>::max();
+    EXPECT_EQ(samples_of_pixel(16, false), 16);
+    EXPECT_EQ(samples_of_pixel(16, true), 64);
+    EXPECT_EQ(samples_of_pixel(536870912, true), 2147483648);
+    EXPECT_EQ(samples_of_pixel(most, true), most);
 }
 
 TEST(SamplerKinds, CoverThePixelEvenlyAndAreAllRightOnAverage) {

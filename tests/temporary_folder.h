@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 namespace threefold {
 // Another entity than the exporter's class of the same name, which is linked into the same program.

@@ -3,6 +3,7 @@
 // tracer against a reference that it never saw.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <ostream>
 #include <random>

@@ -4,6 +4,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
+#include <ostream>
 
 #include "scenes/camera.h"
 #include "scenes/error.h"

@@ -2,7 +2,9 @@
 // The statistics of the trade study on made-up pictures whose noise and bias are known; the choice; the closed form of
 // a single path against the tracer; the study with our tracer alone, end to end.
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>

@@ -9,6 +9,7 @@
 #include <regex>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -72,6 +73,20 @@ TEST(Walls, NothingIncludesUpwards) {
     const std::vector<std::string> layers{"scenes/", "exporter/", "verifier/", "tools/"};
     for (std::size_t low = 0; low < layers.size(); ++low)
         for (std::size_t high = low + 1; high < layers.size(); ++high) expect_no_way(layers[low], layers[high]);
+}
+
+TEST(Walls, NothingIsWrittenForOneMajorVersionOfEmbreeAlone) {
+    int users = 0;
+    for (const char *room : {"scenes", "exporter", "verifier", "tools", "tests"})
+        for (const auto &entry : fs::recursive_directory_iterator(root / room)) {
+            if (entry.path().filename() == "walls_test.cpp" || !entry.is_regular_file()) continue;
+            const std::string text = text_of(entry.path());
+            const bool three = text.find("<embree3/") != std::string::npos;
+            const bool four = text.find("<embree4/") != std::string::npos;
+            EXPECT_EQ(three, four) << entry.path();
+            users += three && four;
+        }
+    EXPECT_GT(users, 0);
 }
 
 TEST(Walls, EveryIncludeOfOursIsAFileFromTheRoot) {

@@ -2,6 +2,7 @@
 // check: claims to verdicts, with a report to look at.
 #include <algorithm>
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 #include <unistd.h>
 
 #include <fmt/format.h>
@@ -132,6 +133,11 @@ Exit export_jobs(const CheckRequest &request, const std::filesystem::path &folde
     return refused == 0 ? Exit::holds : Exit::undecided;
 }
 
+bool is_colour_wanted(int stream) {
+    const char *no_colour = std::getenv("NO_COLOR");
+    return isatty(stream) && !(no_colour && *no_colour);
+}
+
 std::vector<Preset> parse_presets(const std::string &name, bool quick) {
     if (name == "both" || (name.empty() && !quick)) return {Preset::text, Preset::published};
     if (name.empty()) return {Preset::text};
@@ -182,22 +188,28 @@ Exit command_check(const Shop &shop, const CheckCommand &command) {
     request.on_progress = [&progress](const std::string &witness, double share, const std::string &now) {
         progress.update(witness, share, now);
     };
+    const std::filesystem::path report = command.folder / "report.html";
+    const auto write_report = [&](RunResult result) {
+        result.threefold_version = THREEFOLD_VERSION;
+        result.command = shop.command_line;
+        result.versions = library_versions();
+        write_file_atomically(report, to_html(result));
+        return result;
+    };
+    const bool both = request.presets.size() > 1;
+    request.on_claim = [&](const ClaimResult &claim, const RunResult &so_far) {
+        progress.print(to_line(claim, is_colour_wanted(STDERR_FILENO), both));
+        if (so_far.claims.size() < so_far.claims_planned) write_report(so_far);
+    };
     CheckOutcome outcome = check(request);
     progress.finish();
 
-    RunResult &result = outcome.result;
-    result.threefold_version = THREEFOLD_VERSION;
-    result.command = shop.command_line;
-    result.versions = library_versions();
-    const std::filesystem::path report = command.folder / "report.html";
+    const RunResult result = write_report(std::move(outcome.result));
     write_file_atomically(command.folder / "result.json", to_json(result).dump(1) + "\n");
-    write_file_atomically(report, to_html(result));
     if (command.json) write_result(*command.json, to_json(result).dump(1));
     if (command.junit) write_result(*command.junit, to_junit(result));
     if (!command.json || *command.json != "-") {
-        const char *no_colour = std::getenv("NO_COLOR");
-        const bool colour = isatty(STDOUT_FILENO) && !(no_colour && *no_colour);
-        fmt::print("{}", to_text(result, colour, shop.verbosity));
+        fmt::print("{}", to_text(result, is_colour_wanted(STDOUT_FILENO), shop.verbosity));
         fmt::print("\nreport: {}\n", std::filesystem::absolute(report).lexically_normal().string());
     }
     return outcome.exit;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // extremes: where arithmetic ends in each renderer, and whether it says so.
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "exporter/files.h"
 #include "tools/commands.h"

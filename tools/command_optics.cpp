@@ -16,6 +16,7 @@
 #include "scenes/error.h"
 #include "tools/restored_impact.h"
 #include "verifier/optics/concentric.h"
+#include "verifier/optics/quad.h"
 
 namespace threefold {
 namespace {

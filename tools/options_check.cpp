@@ -11,30 +11,24 @@ void add_check_options(CLI::App &command, CheckCommand &request) {
         "--mitsuba", request.mitsuba,
         "Instead: whether a Mitsuba 0.5 to 3 file is the same picture in every renderer, tile by tile (its "
         "parameters: threefold show --mitsuba FILE)");
-    command.add_flag("--quick", request.quick,
-                     "Smaller pictures and one preset: one claim in a minute or less, all in some eight");
+    command.add_flag("--quick", request.quick, "Smaller pictures and one preset; README.md says how long it takes");
     add_renderers_option(command, request.with);
     command.add_option(
         "--preset", request.preset,
         "Values of the study's wording (text), of its scene files (published), or both (the default; with "
         "--quick: text)");
-    command
-        .add_option("--set", request.assignments,
-                    "Change a parameter of every scene that has it: name=value; repeatable")
-        ->allow_extra_args(false);
+    add_set_option(command, request.assignments);
     command
         .add_option("-o,--output", request.folder,
                     "Folder of the run: report.html, result.json, inputs, pictures, logs; a killed run goes on there")
         ->capture_default_str();
     add_json_option(command, request.json);
     command.add_option("--junit", request.junit, "Also write the result as JUnit XML here");
-    command
-        .add_option(
-            "--inject", request.injections,
-            "Put a fault into one renderer, RENDERER:FAULT or RENDERER:FAULT@SIZE, to see that a claim can fail "
-            "(see: threefold list)")
-        ->allow_extra_args(false);
-    command.add_option("--seed", request.seed, "Seed")->capture_default_str();
+    one_or_many(command.add_option("--inject", request.injections,
+                                   "Put a fault, or FAULT@SIZE, into one renderer, to see that a claim can fail "
+                                   "(see: threefold list)"),
+                "RENDERER:FAULT");
+    add_seed_option(command, request.seed);
     add_time_limit_option(command, request.time_limit_s, "Seconds until a renderer is given up on one experiment");
     command
         .add_option(
@@ -44,11 +38,10 @@ void add_check_options(CLI::App &command, CheckCommand &request) {
             "numbers never fewer samples than their claim asks (default: the claims' own samples)")
         ->check(CLI::Range(1e-9, 0.999));
     command.add_option("--precision", request.precision, "Tracer: float or double")->capture_default_str();
-    command
-        .add_option("--image", request.images,
-                    "One more witness, mitsuba=FOLDER: pictures made elsewhere, of the scenes that --export wrote with "
-                    "the same claims, options and seed")
-        ->allow_extra_args(false);
+    one_or_many(command.add_option("--image", request.images,
+                                   "One more renderer: pictures made elsewhere, of the scenes that --export wrote "
+                                   "with the same claims, options and seed"),
+                "mitsuba=FOLDER");
     command.add_option("--export", request.export_to,
                        "Only write, mitsuba=FOLDER (new, or empty): each experiment's scene as Mitsuba 3 XML and a "
                        "script that renders them; what Mitsuba cannot say is left out and told");

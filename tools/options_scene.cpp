@@ -16,10 +16,7 @@ void add_scene_options(CLI::App &command, SceneRequest &scene) {
     command
         .add_option("--preset", scene.preset, "Values of the study's wording (text) or of its scene files (published)")
         ->capture_default_str();
-    command
-        .add_option("--set", scene.assignments,
-                    "Change a parameter: name=value (see: threefold show SCENE); repeatable")
-        ->allow_extra_args(false);
+    add_set_option(command, scene.assignments, "Change a parameter: orb.wall_mm=2 (see: threefold show SCENE)");
     command.add_option("--size", scene.size, "Picture size in pixels, WIDTHxHEIGHT");
 }
 
@@ -36,7 +33,7 @@ void add_export_options(CLI::App &command, ExportRequest &request) {
     command.add_option("--spp", request.samples_per_pixel, "blender, povray: samples per pixel, as render takes them")
         ->capture_default_str()
         ->check(CLI::PositiveNumber);
-    command.add_option("--seed", request.seed, "blender: seed")->capture_default_str();
+    add_seed_option(command, request.seed, "blender: seed");
     add_time_limit_option(command, request.time_limit_s, "blender, glb: seconds until Blender is given up");
     command.footer("For example:\n"
                    "  threefold export hollow --to blender -o hollow-blend    change the wall in the orb's modifier\n"
@@ -62,7 +59,7 @@ void add_render_options(CLI::App &command, RenderRequest &request) {
                 "if that is not shown")
             ->check(CLI::Range(1e-9, 0.999))
             ->excludes(spp);
-    command.add_option("--seed", request.seed, "Seed")->capture_default_str();
+    add_seed_option(command, request.seed);
     command.add_flag("--pixel-centres", request.pixel_centres, "One ray through each pixel's centre, no filter")
         ->excludes(tolerance);
     command
@@ -100,10 +97,7 @@ void add_gallery_options(CLI::App &command, GalleryCommand &request) {
         .add_option("--preset", request.preset,
                     "Values of the study's wording (text) or of its scene files (published)")
         ->capture_default_str();
-    command
-        .add_option("--set", request.assignments,
-                    "Change a parameter of every scene that has it: name=value; repeatable")
-        ->allow_extra_args(false);
+    add_set_option(command, request.assignments);
     command.add_option("--scale", request.scale,
                        "Size of the pictures as a share of the study's (0.5; with --quick: 0.25)");
     command.add_option("--spp", request.samples_per_pixel, "Samples per pixel (9; with --quick: 4)");
@@ -112,7 +106,7 @@ void add_gallery_options(CLI::App &command, GalleryCommand &request) {
         .add_option("-o,--output", request.folder,
                     "Folder: index.html, contact-sheet.png, pictures; a killed run goes on there")
         ->capture_default_str();
-    command.add_option("--seed", request.seed, "Seed")->capture_default_str();
+    add_seed_option(command, request.seed);
     add_time_limit_option(command, request.time_limit_s);
 }
 

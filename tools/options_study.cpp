@@ -13,19 +13,16 @@ void add_power_options(CLI::App &command, PowerCommand &power) {
     command.add_flag("--quick", power.quick, "Our tracer alone, and a coarser search for the smallest faults");
     add_renderers_option(command, power.with,
                          "Honest renderers beside the tracer, which gets the faults (default: all that are installed)");
-    command.add_option("--without", power.without, "Claims to leave out, comma-separated")
-        ->delimiter(',')
-        ->allow_extra_args(false);
-    command.add_option("--faults", power.faults, "Only these, comma-separated (see: threefold list)")
-        ->delimiter(',')
-        ->allow_extra_args(false);
+    comma_separated(command.add_option("--without", power.without, "Claims to leave out, comma-separated"), "CLAIM");
+    comma_separated(command.add_option("--faults", power.faults, "Only these, comma-separated (see: threefold list)"),
+                    "FAULT");
     command.add_option("--runs", power.runs, "Runs without a fault, to count false alarms (default: 40; --quick: 10)")
         ->check(CLI::Range(0, 100000));
     command
         .add_option("--precision", power.precision,
                     "Tracer: float, as other renderers compute, or double, which sees far smaller faults")
         ->capture_default_str();
-    command.add_option("--seed", power.seed, "Seed")->capture_default_str();
+    add_seed_option(command, power.seed);
     command.add_option("-o,--output", power.folder, "Folder of the study: power.json, power.md, honest pictures")
         ->capture_default_str();
     add_json_option(command, power.json);
@@ -37,12 +34,10 @@ void add_trade_options(CLI::App &command, TradeCommand &trade) {
     add_scene_options(command, trade.scene);
     command.add_flag("--quick", trade.quick, "Fewer settings, 64 px and less to pay: some minutes");
     add_renderers_option(command, trade.with);
-    command
-        .add_option("--tolerance", trade.tolerances,
-                    "Relative RMS error to be met: over pixels and channels, over the mean radiance (1e-2); "
-                    "comma-separated")
-        ->delimiter(',')
-        ->allow_extra_args(false)
+    comma_separated(command.add_option("--tolerance", trade.tolerances,
+                                       "Relative RMS error to be met: over pixels and channels, over the mean "
+                                       "radiance (1e-2); comma-separated"),
+                    "FLOAT")
         ->check(CLI::Range(1e-9, 0.999));
     command.add_option("--runs", trade.runs, "Runs of each setting, each with its own seed")
         ->capture_default_str()
@@ -52,7 +47,7 @@ void add_trade_options(CLI::App &command, TradeCommand &trade) {
             "--budget", trade.budget_s,
             "CPU seconds to see one renderer meet one tolerance (300; --quick: 60); beyond, its law alone speaks")
         ->check(CLI::PositiveNumber);
-    command.add_option("--seed", trade.seed, "Seed")->capture_default_str();
+    add_seed_option(command, trade.seed);
     command
         .add_option("-o,--output", trade.folder,
                     "Folder: report.html, trade.json, trade.csv, trade.md, pictures; a killed run goes on there")
@@ -93,11 +88,10 @@ void add_extremes_options(CLI::App &command, ExtremesCommand &extremes) {
         command, extremes.with,
         "Renderers, comma-separated: tracer, povray, cycles (default: all that are installed); the tracer "
         "takes part in double and in float");
-    command
-        .add_option("--sweeps", extremes.sweeps,
-                    fmt::format("Only these, comma-separated: {}", fmt::join(extreme_sweep_names(), ", ")))
-        ->delimiter(',')
-        ->allow_extra_args(false);
+    comma_separated(
+        command.add_option("--sweeps", extremes.sweeps,
+                           fmt::format("Only these, comma-separated: {}", fmt::join(extreme_sweep_names(), ", "))),
+        "SWEEP");
     command
         .add_option(
             "-o,--output", extremes.folder,
@@ -116,9 +110,7 @@ void add_scope_options(CLI::App &command, ScopeCommand &scope) {
                     "Values of the study's wording (text), of its scene files (published), or "
                     "both")
         ->capture_default_str();
-    command
-        .add_option("--set", scope.assignments, "Change a parameter of every scene that has it: name=value; repeatable")
-        ->allow_extra_args(false);
+    add_set_option(command, scope.assignments);
     command.add_flag("--quick", scope.quick, "Closed forms alone: what only a picture could tell is not asked");
     command.add_option("--abbe", s.abbe_number, "Dispersion: the glass's Abbe number (crown 64, flint 36)")
         ->capture_default_str()

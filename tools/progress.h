@@ -9,6 +9,23 @@
 
 namespace threefold {
 
+using ProgressClock = std::chrono::steady_clock;
+
+/// How far one renderer has come. Each has its own clock: renderers work side by side, or one after another.
+struct ProgressLine {
+    std::string name, now;
+    double share = 0;
+
+    void update(ProgressClock::time_point time, double new_share, const std::string &new_now);
+    /// "40 s left", "done", or nothing while it is too early to tell.
+    std::string time_left(ProgressClock::time_point time) const;
+
+private:
+    bool begun_ = false;
+    ProgressClock::time_point begin_; ///< of the first update
+    double share_at_begin_ = 0;       ///< what was there already, from an earlier run perhaps
+};
+
 class Progress {
 public:
     Progress(std::vector<std::string> names, bool quiet);
@@ -17,23 +34,18 @@ public:
     Progress &operator=(const Progress &) = delete;
 
     void update(const std::string &name, double share, const std::string &now);
+    /// A line of text above the bars.
+    void print(const std::string &line);
     /// Leaves the bars as they stand and goes to the next line.
     void finish();
 
 private:
-    using Clock = std::chrono::steady_clock;
-    struct Line {
-        std::string name, now;
-        double share = 0;
-        double seconds = 0; ///< while this renderer was at work
-    };
-
     void draw(bool force);
 
-    std::vector<Line> lines_;
+    std::vector<ProgressLine> lines_;
     bool quiet_, terminal_;
     bool drawn_ = false;
-    Clock::time_point last_update_, last_draw_;
+    ProgressClock::time_point last_draw_;
 };
 
 } // namespace threefold

@@ -3,14 +3,17 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstdio>
 #include <fcntl.h>
 #include <iostream>
+#include <system_error>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "exporter/process/child.h"
+#include "tools/manual.h"
 #include "tools/options.h"
 #include "verifier/witness/witness.h"
 
@@ -48,6 +51,11 @@ std::string command_line(int argc, char **argv) {
     return all;
 }
 
+bool stdout_written() {
+    std::cout.flush();
+    return std::fflush(stdout) == 0 && std::cout;
+}
+
 } // namespace
 
 int run(int argc, char **argv, const std::vector<SceneRecipe> &scenes, const std::vector<Claim> &claims) {
@@ -77,7 +85,13 @@ int run(int argc, char **argv, const std::vector<SceneRecipe> &scenes, const std
         return all.substr(0, all.size() - 1);
     });
 
+    app.add_flag_callback(
+        "--man-page", [&app] { throw CLI::CallForVersion(to_man_page(app), 0); }, "Print the manual page, for man -l");
     Shop shop{scenes, claims, program_name(argc, argv), command_line(argc, argv), 0, 0};
+    app.add_flag_callback(
+        "--completion",
+        [&app, &shop] { throw CLI::CallForVersion(to_bash_completion(app, completion_words(shop)), 0); },
+        "Print the completion for bash, to be sourced");
     Exit exit = Exit::holds;
     bool quiet = false, verbose = false;
     const auto add_common = [&](CLI::App &command) {
@@ -165,7 +179,9 @@ int run(int argc, char **argv, const std::vector<SceneRecipe> &scenes, const std
         for (const CLI::App *command : app.get_subcommands({})) commands.push_back(command->get_name());
         if (argc > 1 && argv[1][0] != '-' && std::ranges::count(commands, argv[1]) == 0)
             throw Error(Exit::usage, unknown_name("command", argv[1], commands));
-        app.parse(argc, argv);
+        std::vector<std::string> arguments = repeat_options({argv + std::min(argc, 1), argv + argc});
+        std::ranges::reverse(arguments); // as the parser takes them
+        app.parse(std::move(arguments));
         shop.verbosity = quiet ? -1 : verbose ? 1 : 0;
         install_signal_handlers();
         if (list) exit = command_list(shop, list_json);
@@ -181,11 +197,13 @@ int run(int argc, char **argv, const std::vector<SceneRecipe> &scenes, const std
         if (scope) exit = command_scope(shop, scope_command);
         if (compare) exit = command_compare(shop, compare_request);
         if (optics) exit = static_cast<Exit>(run_optics(optics_query, std::cout));
-        std::cout.flush();
-        if (std::fflush(stdout) != 0 || !std::cout) throw Error(Exit::input_output, "cannot write to stdout");
+        if (!stdout_written()) throw Error(Exit::input_output, "cannot write to stdout");
         return static_cast<int>(exit);
     } catch (const CLI::ParseError &error) {
-        if (error.get_exit_code() == 0) return app.exit(error); // --help, --version
+        if (error.get_exit_code() == 0) { // --help, --version
+            app.exit(error);
+            return stdout_written() ? 0 : refuse(Error(Exit::input_output, "cannot write to stdout"));
+        }
         return refuse(Error(Exit::usage, error.what()));
     } catch (const Error &error) {
         return refuse(error);

@@ -24,10 +24,9 @@ Exported compile_cycles(const RenderJob &job) {
                           "-noaudio",
                           "--python-exit-code",
                           "3",
-                          "-t",
-                          fmt::format("{}", job.threads),
                           "--python-expr",
                           "import runpy; runpy.run_path('scene.py', run_name='__main__')"};
+    exported.thread_arguments = {"-t", fmt::format("{}", job.threads)};
     exported.outputs = std::move(scene.outputs);
     exported.accuracy = scene.accuracy;
     return exported;

@@ -5,7 +5,7 @@ namespace threefold {
 
 namespace {
 
-constexpr std::string_view python = R"python(
+constexpr std::string_view glb_python = R"python(
 # ---- glTF: metres, and materials that its exporter understands
 
 
@@ -153,6 +153,6 @@ def write_glb(scene_data, delivery):
 
 } // namespace
 
-std::string_view glb_prelude() { return python; }
+std::string_view glb_prelude() { return glb_python; }
 
 } // namespace threefold

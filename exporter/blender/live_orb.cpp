@@ -5,7 +5,7 @@ namespace threefold {
 
 namespace {
 
-constexpr std::string_view python = R"python(
+constexpr std::string_view live_orb_python = R"python(
 # ---- An orb whose numbers can be changed in Blender
 #
 # The object's own mesh is the sphere of radius 1. A group of geometry nodes, its modifier, makes both surfaces of it by
@@ -283,6 +283,6 @@ def inspect(scene_data, delivery):
 
 } // namespace
 
-std::string_view live_orb_prelude() { return python; }
+std::string_view live_orb_prelude() { return live_orb_python; }
 
 } // namespace threefold

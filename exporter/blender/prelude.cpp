@@ -5,7 +5,7 @@ namespace threefold {
 
 namespace {
 
-constexpr std::string_view python = R"python(# SPDX-License-Identifier: MIT
+constexpr std::string_view prelude_python = R"python(# SPDX-License-Identifier: MIT
 # A scene made by Threefold for Blender's Cycles, 3.4 or later. Run it in the folder that holds it:
 #
 #   blender -b --factory-startup --disable-autoexec -noaudio --python-exit-code 3 -P scene.py
@@ -469,6 +469,6 @@ def main(scene_data):
 
 } // namespace
 
-std::string_view cycles_prelude() { return python; }
+std::string_view cycles_prelude() { return prelude_python; }
 
 } // namespace threefold

@@ -154,6 +154,11 @@ Json sampling_by_filter(const RenderJob &job, const Needs &needs) {
 }
 
 Json write_sampling(const RenderJob &job, const Needs &needs) {
+    constexpr int most_samples = 1 << 24; // Blender takes fewer without a word
+    if (job.samples_per_pixel > most_samples)
+        refuse_for_cycles(fmt::format("{} samples per pixel are more than the {} that it can take",
+                                      job.samples_per_pixel, most_samples),
+                          "average pictures of different seeds");
     Json sampling = sampling_by_filter(job, needs);
     if (job.most_bounces) sampling["bounces"] = std::clamp(*job.most_bounces, 1, deepest_path);
     return sampling;

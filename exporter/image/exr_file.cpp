@@ -68,7 +68,7 @@ std::string encode_exr(const Image &image, const std::map<std::string, std::stri
     throw;
 } catch (const std::exception &e) {
     throw Error(Exit::internal, fmt::format("cannot encode a .exr picture of {} x {} pixels: {}", image.width,
-                                            image.height, one_line(e.what())));
+                                            image.height, reason(e.what())));
 }
 
 } // namespace threefold

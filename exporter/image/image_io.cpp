@@ -20,8 +20,8 @@
 namespace threefold {
 namespace {
 
-[[noreturn]] void throw_bad_picture(const std::filesystem::path &path, std::string reason) {
-    throw Error(Exit::bad_data, fmt::format("cannot read picture {}: {}", path.string(), one_line(std::move(reason))));
+[[noreturn]] void throw_bad_picture(const std::filesystem::path &path, std::string why) {
+    throw Error(Exit::bad_data, fmt::format("cannot read picture {}: {}", path.string(), reason(std::move(why))));
 }
 
 std::string encode_tiff(const Image &image, const std::map<std::string, std::string> &metadata) {
@@ -33,7 +33,7 @@ std::string encode_tiff(const Image &image, const std::map<std::string, std::str
         return module.encode_tiff(image, description);
     } catch (const std::runtime_error &e) {
         throw Error(Exit::internal, fmt::format("cannot encode a .tif picture of {} x {} pixels: {}", image.width,
-                                                image.height, one_line(e.what())));
+                                                image.height, reason(e.what())));
     }
 }
 

@@ -51,9 +51,8 @@ LoadedPictures load_pictures(const std::vector<fs::path> &places) {
         // Lazily: most of the functions in all those libraries are never called.
         void *const handle = ::dlopen(place.c_str(), RTLD_LAZY | RTLD_LOCAL);
         if (!handle) {
-            const std::string reason = one_line(::dlerror());
-            tried.push_back(reason.starts_with(place.string()) ? reason
-                                                               : fmt::format("{}: {}", place.string(), reason));
+            const std::string why = reason(::dlerror());
+            tried.push_back(why.starts_with(place.string()) ? why : fmt::format("{}: {}", place.string(), why));
             continue;
         }
         const auto *module = static_cast<const PictureModule *>(::dlsym(handle, "threefold_pictures"));

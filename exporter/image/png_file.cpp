@@ -80,7 +80,7 @@ std::string encode(Job job) {
     png_destroy_write_struct(&png, &info);
     if (!whole)
         throw Error(Exit::internal, fmt::format("cannot encode a .png picture of {} x {} pixels: {}", job.width,
-                                                job.height, one_line(std::move(job.failure))));
+                                                job.height, reason(std::move(job.failure))));
     return std::move(job.bytes);
 }
 

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <cmath>
 #include <limits>
+#include <system_error>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -36,6 +37,9 @@ int part_of(double offset_px) {
 Camera finer(Camera camera) {
     if (!camera.crop) camera.crop = Crop{0, 0, camera.width_px, camera.height_px};
     Crop &crop = *camera.crop;
+    if (std::max(camera.width_px, camera.height_px) > std::numeric_limits<int>::max() / parts)
+        throw Error(Exit::bad_data, fmt::format("Mitsuba: a film of {} x {} px cannot be made {} times finer",
+                                                camera.width_px, camera.height_px, parts));
     for (int *pixels : {&camera.width_px, &camera.height_px, &crop.x_px, &crop.y_px, &crop.width_px, &crop.height_px})
         *pixels *= parts;
     camera.film_offset_px = Vec2(0);
@@ -62,6 +66,8 @@ MitsubaJob to_mitsuba_job(const RenderJob &job, std::string_view label) {
     if (job.slip != Slip{}) refuse("it cannot be made to follow light wrongly on purpose");
     const bool centres = job.sampling == Sampling::pixel_centres;
     const Needs needed = needs(job.scene);
+    if (job.samples_per_pixel > std::numeric_limits<int>::max() / sample_factor)
+        refuse(fmt::format("{} samples per pixel are too many", job.samples_per_pixel));
     MitsubaJob made;
     made.finer = centres ? parts : 1;
     made.samples_per_pixel =

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <system_error>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -153,6 +155,11 @@ void Reader::fit_picture() {
     if (width == 0 && height == 0) return;
     const double w = camera.image_width_px(), h = camera.image_height_px();
     const double scale = width > 0 ? width / w : height / h;
+    constexpr double most_px = std::numeric_limits<int>::max();
+    if (camera.width_px * scale > most_px || camera.height_px * scale > most_px)
+        throw Error(Exit::bad_data, fmt::format("{}: at the size asked the whole film would have {:.3g} x {:.3g} px",
+                                                one_line(document_.tree.root.place.file), camera.width_px * scale,
+                                                camera.height_px * scale));
     const int new_width = width > 0 ? width : std::max(1, static_cast<int>(std::lround(w * scale)));
     const int new_height = height > 0 ? height : std::max(1, static_cast<int>(std::lround(h * scale)));
     if (!camera.crop) {
@@ -227,9 +234,8 @@ Scene Reader::scene() {
     }
     const std::string shadow = parameters_.word("glass.shadow");
     scene_.glass_shadow.rule = shadow == "none"       ? GlassShadow::Rule::none
-                               : shadow == "opaque"   ? GlassShadow::Rule::opaque
                                : shadow == "constant" ? GlassShadow::Rule::constant
-                                                      : GlassShadow::Rule::caustic;
+                                                      : GlassShadow::Rule::opaque;
     scene_.glass_shadow.transmittance = parameters_.number("glass.shadow_transmittance");
     fit_picture();
     return std::move(scene_);
@@ -257,8 +263,8 @@ namespace {
 
 using mitsuba::Tree;
 
-ParameterSpec number(std::string name, std::string description, double value, double least, double greatest,
-                     bool whole = false) {
+ParameterSpec file_parameter(std::string name, std::string description, double value, double least, double greatest,
+                             bool whole = false) {
     return {.name = std::move(name),
             .description = std::move(description),
             .text = value,
@@ -268,33 +274,46 @@ ParameterSpec number(std::string name, std::string description, double value, do
             .whole = whole};
 }
 
+/// What our own instruction says and cannot be done is refused: passed over, it would make another picture.
+[[noreturn]] void refuse_said(const Tree &tree, const std::string &key, std::string_view why) {
+    throw Error(Exit::bad_data, fmt::format("{}: <?threefold {}=\"{}\"?>: {}", one_line(tree.root.place.file), key,
+                                            one_line(tree.said.at(key)), why));
+}
+
 double said_number(const Tree &tree, const std::string &key, double otherwise, double least, double greatest) {
     const auto said = tree.said.find(key);
-    const std::optional<double> value = said == tree.said.end() ? std::nullopt : mitsuba::to_number(said->second);
-    return value && *value >= least && *value <= greatest ? *value : otherwise;
+    if (said == tree.said.end()) return otherwise;
+    const std::optional<double> value = mitsuba::to_number(said->second);
+    if (!value || !(*value >= least && *value <= greatest))
+        refuse_said(tree, key, fmt::format("must be a number from {:g} to {:g}", least, greatest));
+    return *value;
 }
 
 std::vector<ParameterSpec> parameters_in(const Tree &tree) {
     std::vector<ParameterSpec> all{
-        number("file.unit_mm", "length of one unit of the file (it does not say; the study's are centimetres)",
-               said_number(tree, "unit_mm", 10, 1e-9, 1e9), 1e-9, 1e9),
-        number("image.width_px", "width of the picture (0: as the file says)", 0, 0, 1e6, true),
-        number("image.height_px", "height of the picture (0: as the file says)", 0, 0, 1e6, true),
-        number("environment.radiance", "radiance of the surroundings (-1: as the file says)", -1, -1, 1e6),
-        number("environment.dome_directions",
-               "parallel lights that stand for the environment's light on surfaces (0: 48 where there are any)",
-               said_number(tree, "dome_directions", 0, 0, 10'000), 0, 10'000, true),
-        number("glass.shadow_transmittance", "share of light behind an orb, under glass.shadow=constant",
-               said_number(tree, "shadow_transmittance", 1, 0, 1), 0, 1),
-        number("thin.wall_share", "wall that stands for a sheet without thickness, as a share of the radius", 1e-3,
-               1e-9, 0.1)};
+        file_parameter("file.unit_mm", "length of one unit of the file (it does not say; the study's are centimetres)",
+                       said_number(tree, "unit_mm", 10, 1e-9, 1e9), 1e-9, 1e9),
+        file_parameter("image.width_px", "width of the picture (0: as the file says)", 0, 0, 1e6, true),
+        file_parameter("image.height_px", "height of the picture (0: as the file says)", 0, 0, 1e6, true),
+        file_parameter("environment.radiance", "radiance of the surroundings (-1: as the file says)", -1, -1, 1e6),
+        file_parameter("environment.dome_directions",
+                       "parallel lights that stand for the environment's light on surfaces (0: 48 where there are any)",
+                       said_number(tree, "dome_directions", 0, 0, 10'000), 0, 10'000, true),
+        file_parameter("glass.shadow_transmittance", "share of light behind an orb, under glass.shadow=constant",
+                       said_number(tree, "shadow_transmittance", 1, 0, 1), 0, 1),
+        file_parameter("thin.wall_share", "wall that stands for a sheet without thickness, as a share of the radius",
+                       1e-3, 1e-9, 0.1)};
     ParameterSpec shadow{.name = "glass.shadow",
                          .description = "how light passes glass on its way to a diffuse surface; Mitsuba's path tracer "
                                         "stops it (opaque)",
-                         .choices = {"opaque", "none", "constant", "caustic"}};
-    if (const auto said = tree.said.find("glass_shadow"); said != tree.said.end())
-        if (const auto at = std::ranges::find(shadow.choices, said->second); at != shadow.choices.end())
-            std::rotate(shadow.choices.begin(), at, at + 1);
+                         .choices = {"opaque", "none", "constant"}}; // of caustics no renderer is capable
+    if (const auto said = tree.said.find("glass_shadow"); said != tree.said.end()) {
+        const auto at = std::ranges::find(shadow.choices, said->second);
+        if (at == shadow.choices.end())
+            refuse_said(tree, "glass_shadow",
+                        fmt::format("no renderer can do this; can be: {}", fmt::join(shadow.choices, ", ")));
+        std::rotate(shadow.choices.begin(), at, at + 1);
+    }
     all.push_back(std::move(shadow));
     const auto has = [&](const std::string &name) { return std::ranges::count(all, name, &ParameterSpec::name) > 0; };
     const auto file = [&](std::string name, std::string description) {
@@ -316,7 +335,7 @@ std::vector<ParameterSpec> parameters_in(const Tree &tree) {
     }
     for (const auto &[name, value] : tree.defaults)
         if (const auto n = mitsuba::to_number(value); n && !has("default." + name))
-            all.push_back(number("default." + name, "the file's parameter $" + name, *n, -1e12, 1e12));
+            all.push_back(file_parameter("default." + name, "the file's parameter $" + name, *n, -1e12, 1e12));
     return all;
 }
 

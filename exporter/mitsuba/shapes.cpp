@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <system_error>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>

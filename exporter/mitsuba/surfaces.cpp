@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // BSDFs, textures and area lights.
 #include <cmath>
+#include <system_error>
 
 #include <fmt/format.h>
 

@@ -44,7 +44,7 @@ Xml value(Xml parent, const char *tag, const char *name, const std::string &valu
     return node;
 }
 
-Xml number(Xml parent, const char *name, double x) { return value(parent, "float", name, fmt::format("{}", x)); }
+Xml float_value(Xml parent, const char *name, double x) { return value(parent, "float", name, fmt::format("{}", x)); }
 
 bool shines(const Surface &surface) {
     return std::visit(overloaded{
@@ -114,7 +114,7 @@ private:
         const bool parallel = c.projection == Projection::orthographic;
         Xml sensor = child(root_, "sensor", parallel ? "orthographic" : "perspective");
         if (!parallel) {
-            number(sensor, "fov", c.horizontal_fov_deg);
+            float_value(sensor, "fov", c.horizontal_fov_deg);
             value(sensor, "string", "fov_axis", "x");
             // A shift of the picture by a share of its size; a crop has the film as its measure.
             if (c.film_offset_px != Vec2(0))
@@ -122,8 +122,8 @@ private:
         } else if (c.film_offset_px != Vec2(0))
             lose("a film offset");
         // Mitsuba cuts what is nearer or farther.
-        number(sensor, "near_clip", 1e-3);
-        number(sensor, "far_clip", 1e9);
+        float_value(sensor, "near_clip", 1e-3);
+        float_value(sensor, "far_clip", 1e9);
         Xml transform = sensor.append_child("transform");
         transform.append_attribute("name") = "to_world";
         if (parallel) {
@@ -157,9 +157,10 @@ private:
 
     void glass_bsdf(Xml shape, const std::string &name, const Glass &glass) {
         Xml bsdf = child(shape, "bsdf", "dielectric");
-        number(bsdf, "int_ior", glass.index);
-        number(bsdf, "ext_ior", 1);
-        if (glass.interface_transmittance != 1) number(bsdf, "specular_transmittance", glass.interface_transmittance);
+        float_value(bsdf, "int_ior", glass.index);
+        float_value(bsdf, "ext_ior", 1);
+        if (glass.interface_transmittance != 1)
+            float_value(bsdf, "specular_transmittance", glass.interface_transmittance);
         if (glass.coating == Coating::antireflective)
             lose(fmt::format("{}: the antireflective coating of the glass: it reflects as bare glass does", name));
     }
@@ -183,7 +184,7 @@ private:
         point.append_attribute("x") = fmt::format("{}", centre.x).c_str();
         point.append_attribute("y") = fmt::format("{}", centre.y).c_str();
         point.append_attribute("z") = fmt::format("{}", centre.z).c_str();
-        number(shape, "radius", radius);
+        float_value(shape, "radius", radius);
         if (hollow) value(shape, "boolean", "flip_normals", "true");
         glass_bsdf(shape, name, glass);
     }

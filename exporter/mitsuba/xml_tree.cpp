@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <system_error>
 
 #include <fmt/format.h>
 #include <pugixml.hpp>
@@ -97,7 +98,9 @@ private:
         for (const pugi::xml_node child : document.children()) {
             if (child.type() != pugi::node_pi || std::string_view(child.name()) != "threefold") continue;
             pugi::xml_document own;
-            if (!own.load_string(fmt::format("<said {}/>", child.value()).c_str())) continue;
+            if (!own.load_string(fmt::format("<said {}/>", child.value()).c_str()))
+                refuse(fmt::format("{}: <?threefold {}?> cannot be read", place.text(),
+                                   one_line(std::string(child.value()).substr(0, 80))));
             for (const pugi::xml_attribute a : own.document_element().attributes()) tree_.said[a.name()] = a.value();
         }
     }

@@ -62,7 +62,7 @@ void write_mesh(Writer &writer, const Mesh &mesh) {
 }
 
 void write_object(Writer &writer, const Object &object) {
-    writer.text += fmt::format("// {}\n", quoted(object.name));
+    writer.text += fmt::format("// {}\n", in_quotes(object.name));
     std::visit(overloaded{[&](const GlassBall &ball) { write_ball(writer, ball); },
                           [&](const GlassShell &shell) { write_shell(writer, shell); },
                           [&](const Quad &quad) { write_quad(writer, quad); },

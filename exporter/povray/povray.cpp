@@ -88,7 +88,6 @@ std::vector<std::string> arguments(const RenderJob &job, int supersampling, std:
         "Display=off",
         "Pause_When_Done=off",
     };
-    if (job.threads > 0) all.push_back(fmt::format("Work_Threads={}", job.threads));
     return all;
 }
 
@@ -117,8 +116,9 @@ std::string head(const RenderJob &job, const povray::Space &space, double radian
                        "  max_trace_level {}\n"
                        "  adc_bailout {} // the weight below which a branch is dropped\n"
                        "}}\n",
-                       povray::quoted(job.scene.name), number(1 / space.units_per_mm), povray::vector(space.origin_mm),
-                       number(radiance_scale), std::clamp(job.most_bounces.value_or(256), 1, greatest_depth(job.scene)),
+                       povray::in_quotes(job.scene.name), number(1 / space.units_per_mm),
+                       povray::vector(space.origin_mm), number(radiance_scale),
+                       std::clamp(job.most_bounces.value_or(256), 1, greatest_depth(job.scene)),
                        number(job.cut_weight));
 }
 
@@ -162,6 +162,7 @@ Exported compile_povray(const RenderJob &job) {
     exported.pictures_per_replicate = grid.pictures;
     const std::size_t pictures = job.replicates.size() * static_cast<std::size_t>(exported.pictures_per_replicate);
     exported.arguments = arguments(job, exported.supersampling, pictures);
+    if (job.threads > 0) exported.thread_arguments = {fmt::format("Work_Threads={}", job.threads)};
     exported.outputs = output_names(pictures);
     exported.accuracy.radiance_step = 0.5 / white / writer.radiance_scale;
     exported.accuracy.rounding_mm = std::max(writer.mesh_rounding_mm, rounding_mm(writer.space));

@@ -39,12 +39,12 @@ void refuse_what_cannot_be_said(const RenderJob &job) {
         if (made_of.coating == Coating::antireflective && made_of.interface_transmittance <= job.cut_weight &&
             glm::distance(scene.camera.eye_mm, orb->centre_mm) <= orb->radius_mm)
             refuse(fmt::format("total reflection inside {} whose interfaces transmit {} cannot be seen from inside it",
-                               quoted(object.name), made_of.interface_transmittance));
+                               in_quotes(object.name), made_of.interface_transmittance));
     }
     if (!diffuse) return;
     if (scene.environment && !is_black(scene.environment->radiance) && scene.environment->dome_directions == 0)
         refuse(fmt::format("the environment's light on the diffuse surface {} would be an integral",
-                           quoted(diffuse->name)),
+                           in_quotes(diffuse->name)),
                "give the environment a dome of parallel lights, or make the surface emissive");
     if (glass && !lights_on_diffuse(scene).empty() && scene.glass_shadow.rule == GlassShadow::Rule::caustic)
         refuse("light that glass bends onto a diffuse surface cannot be computed to a stated accuracy",

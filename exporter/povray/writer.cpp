@@ -33,7 +33,7 @@ std::string number(double value) {
 
 std::string vector(const glm::dvec3 &v) { return fmt::format("<{},{},{}>", number(v.x), number(v.y), number(v.z)); }
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
     return nlohmann::json(text).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
 }
 

@@ -21,7 +21,7 @@ std::string number(double value);
 /// "<x,y,z>"
 std::string vector(const glm::dvec3 &v);
 /// A user's text as it may stand in a comment: one line of ASCII in quotes.
-std::string quoted(std::string_view text);
+std::string in_quotes(std::string_view text);
 
 /// POV-Ray's coordinates: right-handed as ours (every vector of the camera is given), in units of its own.
 struct Space {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <cstring>
 #include <new>
 #include <string_view>
@@ -36,7 +37,7 @@ using Clock = std::chrono::steady_clock;
 constexpr int exit_done = 0, exit_failed = 1, exit_out_of_memory = 2, exit_no_room = 3;
 constexpr int step_ms = 100;
 
-[[noreturn]] void throw_not_started(int error) {
+[[noreturn]] void throw_no_process(int error) {
     throw Error(Exit::input_output, fmt::format("cannot make a process: {}", std::generic_category().message(error)));
 }
 
@@ -143,16 +144,16 @@ std::string describe_signal(int number, rlim_t memory, std::chrono::seconds work
 GuardedResult run_guarded(const GuardedRequest &request) {
     if (interrupt_requested) throw Error(Exit::interrupted, "interrupted");
     const Descriptor result(::memfd_create("threefold-result", MFD_CLOEXEC));
-    if (result.number() < 0) throw_not_started(errno);
+    if (result.number() < 0) throw_no_process(errno);
     // Nothing is written to it: its end says that the child has ended.
     int ends[2];
-    if (::pipe2(ends, O_CLOEXEC) != 0) throw_not_started(errno);
+    if (::pipe2(ends, O_CLOEXEC) != 0) throw_no_process(errno);
     const Descriptor ours(ends[0]);
     Descriptor theirs(ends[1]);
     const rlim_t memory = memory_limit(request);
     const pid_t parent = ::getpid();
     const pid_t number = ::fork();
-    if (number < 0) throw_not_started(errno);
+    if (number < 0) throw_no_process(errno);
     if (number == 0) be_the_child(request, result.number(), parent, memory);
     Child child(number);
     theirs.close();
@@ -180,7 +181,7 @@ GuardedResult run_guarded(const GuardedRequest &request) {
         answer.bytes = all_of(result.number());
         break;
     case exit_failed:
-        answer.failure = one_line(all_of(result.number()));
+        answer.failure = reason(all_of(result.number()));
         break;
     default:
         answer.failure = fmt::format("it needs more than {:.1f} GB of memory", double(memory) / 1e9);

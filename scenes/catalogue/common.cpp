@@ -13,8 +13,6 @@ namespace threefold {
 
 namespace {
 
-constexpr double tiny_mm = 1e-9, huge_mm = 1e9;
-
 ParameterSpec word(std::string name, std::string description, std::vector<std::string> choices) {
     ParameterSpec s{std::move(name), std::move(description)};
     s.choices = std::move(choices);

@@ -9,6 +9,8 @@ namespace threefold {
 
 using Specs = std::vector<ParameterSpec>;
 
+inline constexpr double tiny_mm = 1e-9, huge_mm = 1e9; ///< the least and the greatest length of a parameter
+
 Specs orb_parameters();   ///< orb.radius_mm, orb.shift_mm
 Specs wall_parameters();  ///< orb.wall_mm
 Specs glass_parameters(); ///< glass.index, glass.interface_transmittance, glass.coating

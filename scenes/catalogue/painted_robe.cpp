@@ -11,11 +11,6 @@ namespace threefold {
 
 namespace {
 
-double smooth_step(double from, double to, double x) {
-    const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
-    return t * t * (3 - 2 * t);
-}
-
 /// 1 inside |x| < half, falling to 0 over `soft`.
 double band(double x, double half, double soft) { return 1 - smooth_step(half, half + soft, std::abs(x)); }
 

@@ -12,6 +12,7 @@
 
 #include "scenes/catalogue/catalogue.h"
 #include "scenes/catalogue/common.h"
+#include "scenes/catalogue/textures.h"
 
 namespace threefold {
 
@@ -102,11 +103,6 @@ Mesh wedges(const Parameters &p) {
         mesh.triangles.emplace_back(first, first + 3, first + 1);
     }
     return mesh;
-}
-
-double smooth_step(double from, double to, double x) {
-    const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
-    return t * t * (3 - 2 * t);
 }
 
 /// Blue cloth: broad waves, a fine weave, and each fold as a dark valley with a lit ridge on its left.

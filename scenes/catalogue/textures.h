@@ -12,6 +12,12 @@
 
 namespace threefold {
 
+/// 0 up to `from`, 1 beyond `to`, smooth between.
+inline double smooth_step(double from, double to, double x) {
+    const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
+    return t * t * (3 - 2 * t);
+}
+
 /// Of a reflectance or radiance, cut at 0 and 1.
 inline std::uint16_t texture_sample(double value) {
     return static_cast<std::uint16_t>(std::lround(std::clamp(value, 0.0, 1.0) * 65535));

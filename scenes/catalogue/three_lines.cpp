@@ -12,8 +12,6 @@ namespace threefold {
 
 namespace {
 
-constexpr double tiny_mm = 1e-9, huge_mm = 1e9;
-
 /// Between the fields of the card and its grid, as a share of its half width: so little that nobody sees it, so much
 /// that single precision keeps them apart.
 constexpr double grid_gap_share = 1e-4;

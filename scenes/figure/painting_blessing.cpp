@@ -6,7 +6,7 @@ namespace threefold::figure {
 
 namespace {
 
-constexpr Rgb skin{0.44, 0.285, 0.135}, skin_shadow{0.085, 0.038, 0.014}, linen{0.34, 0.31, 0.25},
+constexpr Rgb hand_skin{0.44, 0.285, 0.135}, hand_shadow{0.085, 0.038, 0.014}, linen{0.34, 0.31, 0.25},
     linen_dark{0.05, 0.042, 0.034};
 
 /// A finger or a limb: round, along a line of points, its radius changing from end to end.
@@ -23,7 +23,7 @@ void lay(const Limb &limb, Vec2 p, Spot &spot) {
     // The dark line between fingers.
     spot.colour *= 1 - 0.55 * soft_step(1.45, 0.95, t);
     const double round = std::sqrt(std::max(0.0, 1 - t * t));
-    Rgb colour = mix(skin, skin_shadow, std::clamp(limb.shade + 0.75 * (1 - round), 0.0, 1.0));
+    Rgb colour = mix(hand_skin, hand_shadow, std::clamp(limb.shade + 0.75 * (1 - round), 0.0, 1.0));
     colour = mix(colour, Rgb(0.50, 0.26, 0.14), 0.25 * soft_step(0.8, 1.0, here.along));
     spot.cover(soft_step(1.03, 0.94, t), limb.lift + 0.9 * radius * round, colour);
 }

@@ -8,7 +8,7 @@ namespace threefold::figure {
 
 namespace {
 
-constexpr Rgb skin{0.50, 0.335, 0.165}, skin_shadow{0.105, 0.048, 0.018}, lips{0.27, 0.105, 0.055};
+constexpr Rgb face_skin{0.50, 0.335, 0.165}, face_shadow{0.105, 0.048, 0.018}, lips{0.27, 0.105, 0.055};
 constexpr Rgb hair_dark{0.014, 0.0062, 0.0026}, hair_light{0.30, 0.155, 0.055};
 constexpr Rgb eye_white{0.22, 0.165, 0.10}, iris{0.055, 0.032, 0.016}, line_brown{0.05, 0.022, 0.010};
 
@@ -17,7 +17,7 @@ constexpr double axis_x = -0.018;
 
 struct Features {
     double relief = 0; ///< height above the face's mass
-    Rgb colour = skin;
+    Rgb colour = face_skin;
 
     void tint(double share, Rgb towards) { colour = mix(colour, towards, std::clamp(share, 0.0, 1.0)); }
 };
@@ -26,9 +26,9 @@ void model_eye(Features &f, Vec2 q, double side) {
     const double x = 0.142 * side, y = 0.675;
     f.relief -= 0.019 * bump(q, x - 0.01 * side, y + 0.008, 0.075, 0.050);
     f.relief += 0.016 * bump(q, x, y - 0.004, 0.045, 0.026);
-    f.tint(0.34 * bump(q, x - 0.016 * side, y + 0.03, 0.080, 0.034), skin_shadow);
-    f.tint(0.30 * bump(q, 0.085 * side, y + 0.01, 0.022, 0.05), skin_shadow); // beside the nose's root
-    f.tint(0.30 * bump(q, x, y - 0.058, 0.07, 0.014), skin_shadow);           // lower lid's bag
+    f.tint(0.34 * bump(q, x - 0.016 * side, y + 0.03, 0.080, 0.034), face_shadow);
+    f.tint(0.30 * bump(q, 0.085 * side, y + 0.01, 0.022, 0.05), face_shadow); // beside the nose's root
+    f.tint(0.30 * bump(q, x, y - 0.058, 0.07, 0.014), face_shadow);           // lower lid's bag
     // Lids: two arcs that meet in the corners; the eye is open between them, a little.
     const double u = (q.x - x) / 0.062;
     if (std::abs(u) < 1.25) {
@@ -45,7 +45,7 @@ void model_eye(Features &f, Vec2 q, double side) {
         const double ends = soft_step(1.22, 0.9, std::abs(u));
         f.tint(0.85 * ends * std::exp(-std::pow((q.y - upper) / 0.0065, 2)), line_brown);
         f.tint(0.55 * ends * std::exp(-std::pow((q.y - lower) / 0.005, 2)), line_brown);
-        f.tint(0.55 * ends * std::exp(-std::pow((q.y - upper - 0.026) / 0.007, 2)), skin_shadow); // the lid's crease
+        f.tint(0.55 * ends * std::exp(-std::pow((q.y - upper - 0.026) / 0.007, 2)), face_shadow); // the lid's crease
     }
     // The brow, faint as in the sitter's time.
     const double v = (q.x - x) * side / 0.095;
@@ -63,10 +63,10 @@ void model_nose(Features &f, Vec2 q) {
     for (const double side : {-1.0, 1.0}) {
         f.relief += 0.018 * bump(q, 0.047 * side, 0.482, 0.019, 0.020);
         f.tint(0.85 * bump(q, 0.027 * side, 0.4565, 0.014, 0.0065), line_brown);
-        f.tint(0.45 * bump(q, 0.066 * side, 0.478, 0.007, 0.022), skin_shadow);
-        f.tint((side > 0 ? 0.42 : 0.16) * bump(q, 0.050 * side, 0.60, 0.017, 0.095), skin_shadow);
+        f.tint(0.45 * bump(q, 0.066 * side, 0.478, 0.007, 0.022), face_shadow);
+        f.tint((side > 0 ? 0.42 : 0.16) * bump(q, 0.050 * side, 0.60, 0.017, 0.095), face_shadow);
     }
-    f.tint(0.40 * bump(q, 0, 0.452, 0.040, 0.010), skin_shadow);
+    f.tint(0.40 * bump(q, 0, 0.452, 0.040, 0.010), face_shadow);
     f.tint(0.25 * bump(q, -0.006, 0.60, 0.012, 0.09), Rgb(0.8, 0.66, 0.45)); // light on its ridge
     f.tint(0.22 * bump(q, 0, 0.49, 0.03, 0.02), Rgb(0.62, 0.36, 0.2));
 }
@@ -83,9 +83,9 @@ void model_mouth(Features &f, Vec2 q) {
     f.tint(0.75 * upper, mix(lips, line_brown, 0.25));
     f.tint(0.60 * lower, lips);
     f.tint(0.90 * soft_step(1.22, 0.85, std::abs(x)) * std::exp(-std::pow((q.y - line) / 0.0062, 2)), line_brown);
-    for (const double side : {-1.0, 1.0}) f.tint(0.5 * bump(q, 0.106 * side, 0.372, 0.014, 0.013), skin_shadow);
-    f.tint(0.35 * bump(q, 0, 0.308, 0.050, 0.012), skin_shadow); // under the lower lip
-    f.tint(0.16 * bump(q, 0, 0.415, 0.012, 0.020), skin_shadow); // between nose and mouth
+    for (const double side : {-1.0, 1.0}) f.tint(0.5 * bump(q, 0.106 * side, 0.372, 0.014, 0.013), face_shadow);
+    f.tint(0.35 * bump(q, 0, 0.308, 0.050, 0.012), face_shadow); // under the lower lip
+    f.tint(0.16 * bump(q, 0, 0.415, 0.012, 0.020), face_shadow); // between nose and mouth
 }
 
 /// How far the middle of the hair hangs from the face's axis, from the crown down.
@@ -117,12 +117,12 @@ void Painting::paint_face(Vec2 p, Spot &spot) const {
     model_nose(f, q);
     model_mouth(f, q);
     // Sfumato: the far cheek, the jaw and the beard's shade sink into the dark.
-    f.tint(0.72 * soft_step(0.02, 0.26, q.x + 0.15 * (0.7 - q.y)), skin_shadow);
-    f.tint(0.48 * soft_step(0.12, 0.26, -q.x), skin_shadow);
-    f.tint(0.62 * soft_step(0.10, 0.0, depth), skin_shadow);
-    f.tint(0.34 * soft_step(0.40, 0.22, q.y) * soft_step(0.03, 0.15, std::abs(q.x)), skin_shadow);
-    f.tint(0.18 * soft_step(0.34, 0.25, q.y), skin_shadow);
-    f.tint(0.20 * soft_step(0.93, 1.02, q.y), skin_shadow);
+    f.tint(0.72 * soft_step(0.02, 0.26, q.x + 0.15 * (0.7 - q.y)), face_shadow);
+    f.tint(0.48 * soft_step(0.12, 0.26, -q.x), face_shadow);
+    f.tint(0.62 * soft_step(0.10, 0.0, depth), face_shadow);
+    f.tint(0.34 * soft_step(0.40, 0.22, q.y) * soft_step(0.03, 0.15, std::abs(q.x)), face_shadow);
+    f.tint(0.18 * soft_step(0.34, 0.25, q.y), face_shadow);
+    f.tint(0.20 * soft_step(0.93, 1.02, q.y), face_shadow);
     f.colour *= 1 + 0.05 * noise(p * 14.0, 3, 11);
     // A wide, flat mass: a cheek turns away from the light late.
     const double mass = 0.150 + 0.095 * std::pow(shoulder(depth / 0.24), 0.9);
@@ -163,20 +163,20 @@ void Painting::paint_chest(Vec2 p, Spot &spot) const {
     const double neck = soft_step(-0.02, 0.2, p.y);
     const double column = std::sqrt(std::max(0.0, 1 - std::pow(q.x / 0.25, 2)));
     double height = mix(0.095 + 0.02 * std::exp(-std::pow(q.x / 0.3, 2)), 0.02 + 0.085 * column, neck);
-    Rgb colour = skin;
+    Rgb colour = face_skin;
     for (const double side : {-1.0, 1.0}) {
         const Vec2 bone(0.10 * side, -0.145), outer(0.36 * side, -0.10);
         const Beside clavicle = beside({bone, outer}, q);
         const double ridge = std::exp(-std::pow(clavicle.distance / 0.022, 2)) * soft_step(1.0, 0.7, clavicle.along);
         height += 0.004 * ridge;
-        colour = mix(colour, skin_shadow, 0.25 * std::exp(-std::pow((clavicle.distance - 0.03) / 0.02, 2)));
+        colour = mix(colour, face_shadow, 0.25 * std::exp(-std::pow((clavicle.distance - 0.03) / 0.02, 2)));
         const Beside tendon = beside({Vec2(0.035 * side, -0.15), Vec2(0.17 * side, 0.16)}, q);
         height += 0.006 * std::exp(-std::pow(tendon.distance / 0.035, 2)) * soft_step(0, 0.3, tendon.along);
     }
-    colour = mix(colour, skin_shadow, 0.30 * bump(q, 0, -0.165, 0.035, 0.03));
-    colour = mix(colour, skin_shadow, 0.80 * soft_step(-0.06, 0.24, p.y)); // under the chin
-    colour = mix(colour, skin_shadow, 0.45 * soft_step(0.08, 0.30, q.x));
-    colour = mix(colour, skin_shadow, 0.40 * soft_step(0.20, 0.36, -q.x));
+    colour = mix(colour, face_shadow, 0.30 * bump(q, 0, -0.165, 0.035, 0.03));
+    colour = mix(colour, face_shadow, 0.80 * soft_step(-0.06, 0.24, p.y)); // under the chin
+    colour = mix(colour, face_shadow, 0.45 * soft_step(0.08, 0.30, q.x));
+    colour = mix(colour, face_shadow, 0.40 * soft_step(0.20, 0.36, -q.x));
     colour *= 1 + 0.05 * noise(p * 12.0, 3, 31);
     spot.cover(soft_step(-0.01, 0.01, depth), height, colour);
 }

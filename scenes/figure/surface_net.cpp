@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scenes/figure/surface_net.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>

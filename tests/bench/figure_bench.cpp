@@ -5,14 +5,13 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <map>
 
-#if __has_include(<embree3/rtcore.h>)
-#include "tests/bench/embree_scene.h"
-
 #include "scenes/catalogue/catalogue.h"
 #include "scenes/validate.h"
+#include "tests/bench/embree_scene.h"
 #include "verifier/tracer/pixel.h"
 #include "verifier/tracer/tracer.h"
 
@@ -130,13 +129,6 @@ void ours(benchmark::State &state) {
     state.counters["lanes_filled"] = static_cast<double>(p.count) / (8 * static_cast<double>(p.rays.size()));
 }
 
-RTCIntersectContext context(bool coherent) {
-    RTCIntersectContext c;
-    rtcInitIntersectContext(&c);
-    if (coherent) c.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    return c;
-}
-
 /// Embree's calls change their rays: these are made ready outside the time that counts, and copied inside it.
 std::vector<RTCRayHit> single_rays(const Prepared &p) {
     std::vector<RTCRayHit> ready;
@@ -166,13 +158,13 @@ void bare_single(benchmark::State &state) {
     for (auto _ : state)
         for (const RTCRayHit &ray : ready) {
             RTCRayHit r = ray;
-            RTCIntersectContext c = context(false);
-            rtcIntersect1(world.get(), &c, &r);
+            EmbreeQuery().one(world.get(), r);
             benchmark::DoNotOptimize(r);
         }
     state.SetItemsProcessed(state.iterations() * p.count);
 }
 
+#ifdef THREEFOLD_BENCH_STREAMS
 template <bool coherent>
 void bare_stream(benchmark::State &state) {
     const Prepared &p = prepared(state.range(0));
@@ -184,12 +176,13 @@ void bare_stream(benchmark::State &state) {
         for (std::size_t first = 0; first < ready.size(); first += stream) {
             const std::size_t n = std::min(stream, ready.size() - first);
             std::copy_n(ready.begin() + static_cast<std::ptrdiff_t>(first), n, now.begin());
-            RTCIntersectContext c = context(coherent);
-            rtcIntersect1M(world.get(), &c, now.data(), static_cast<unsigned>(n), sizeof(RTCRayHit));
+            EmbreeQuery(coherent).stream(world.get(), now.data(), n);
             benchmark::DoNotOptimize(now.data());
         }
     state.SetItemsProcessed(state.iterations() * p.count);
 }
+
+#endif
 
 /// Full packets: the rays one after another, without the empty places that ours have.
 template <class Hit, std::size_t width, auto shoot, bool coherent>
@@ -221,8 +214,7 @@ void bare_packet(benchmark::State &state) {
     for (auto _ : state)
         for (const Hit &hit : ready) {
             Hit r = hit;
-            RTCIntersectContext c = context(coherent);
-            shoot(valid, world.get(), &c, &r);
+            EmbreeQuery(coherent).packet<shoot>(valid, world.get(), r);
             benchmark::DoNotOptimize(r);
         }
     state.SetItemsProcessed(state.iterations() * p.count);
@@ -279,8 +271,10 @@ const int registered = [] {
     for (std::size_t scene = 0; scene < scene_names.size(); ++scene) {
         add("ours", ours, scene);
         add("bare_single", bare_single, scene);
+#ifdef THREEFOLD_BENCH_STREAMS
         add("bare_stream", bare_stream<false>, scene);
         add("bare_stream_coherent", bare_stream<true>, scene);
+#endif
         add("bare_four", bare_packet<RTCRayHit4, 4, rtcIntersect4, false>, scene);
         add("bare_four_coherent", bare_packet<RTCRayHit4, 4, rtcIntersect4, true>, scene);
         add("bare_eight", bare_packet<RTCRayHit8, 8, rtcIntersect8, false>, scene);
@@ -292,4 +286,3 @@ const int registered = [] {
 
 } // namespace
 } // namespace threefold
-#endif

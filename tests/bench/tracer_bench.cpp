@@ -5,12 +5,8 @@
 
 #include <bit>
 
-#if __has_include(<embree3/rtcore.h>)
-#include "tests/bench/embree_scene.h"
-#define THREEFOLD_BENCH_EMBREE
-#endif
-
 #include "scenes/camera.h"
+#include "tests/bench/embree_scene.h"
 #include "verifier/tracer/packet.h"
 #include "verifier/tracer/rectangles.h"
 #include "verifier/tracer/tracer.h"
@@ -131,7 +127,6 @@ void tree_eight_at_once(benchmark::State &state) {
 }
 BENCHMARK(tree_eight_at_once);
 
-#ifdef THREEFOLD_BENCH_EMBREE
 /// The rays that leave the orb, asked of bare Embree: two spheres and a rectangle of its own, in single precision.
 class EmbreeOrb : public EmbreeScene {
 public:
@@ -204,13 +199,6 @@ RTCRayHit single(const RayPacket &rays, int l) {
     return r;
 }
 
-RTCIntersectContext coherent() {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    return context;
-}
-
 /// Embree's calls change their rays: these are made ready outside the time that counts, and copied inside it.
 void embree_one_by_one(benchmark::State &state) {
     const EmbreeOrb orb;
@@ -220,15 +208,14 @@ void embree_one_by_one(benchmark::State &state) {
     for (auto _ : state)
         for (const RTCRayHit &ray : ready) {
             RTCRayHit r = ray;
-            RTCIntersectContext context;
-            rtcInitIntersectContext(&context);
-            rtcIntersect1(orb.get(), &context, &r);
+            EmbreeQuery().one(orb.get(), r);
             benchmark::DoNotOptimize(r);
         }
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(ready.size()));
 }
 BENCHMARK(embree_one_by_one);
 
+#ifdef THREEFOLD_BENCH_STREAMS
 void embree_stream(benchmark::State &state) {
     const EmbreeOrb orb;
     std::vector<RTCRayHit> ready, now;
@@ -240,13 +227,13 @@ void embree_stream(benchmark::State &state) {
     for (auto _ : state)
         for (std::size_t first = 0; first < ready.size(); first += stream) {
             std::copy_n(ready.begin() + static_cast<std::ptrdiff_t>(first), stream, now.begin());
-            RTCIntersectContext context = coherent();
-            rtcIntersect1M(orb.get(), &context, now.data(), stream, sizeof(RTCRayHit));
+            EmbreeQuery(true).stream(orb.get(), now.data(), stream);
             benchmark::DoNotOptimize(now.data());
         }
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(ready.size()));
 }
 BENCHMARK(embree_stream);
+#endif
 
 template <class Hit, int width, auto shoot>
 void embree_packet(benchmark::State &state) {
@@ -260,8 +247,7 @@ void embree_packet(benchmark::State &state) {
     for (auto _ : state)
         for (const Hit &rays : ready) {
             Hit r = rays;
-            RTCIntersectContext context = coherent();
-            shoot(valid, orb.get(), &context, &r);
+            EmbreeQuery(true).packet<shoot>(valid, orb.get(), r);
             benchmark::DoNotOptimize(r);
         }
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(ready.size()) * width);
@@ -269,7 +255,6 @@ void embree_packet(benchmark::State &state) {
 BENCHMARK(embree_packet<RTCRayHit4, 4, rtcIntersect4>)->Name("embree_four_at_once");
 BENCHMARK(embree_packet<RTCRayHit8, 8, rtcIntersect8>)->Name("embree_eight_at_once");
 BENCHMARK(embree_packet<RTCRayHit16, 16, rtcIntersect16>)->Name("embree_sixteen_at_once");
-#endif
 
 /// Items are samples; linear in pixels and samples if the rate stays. Pixels beside the orb take four times the
 /// samples: their number, like the others', is in proportion to the pixels, so the items need not know.

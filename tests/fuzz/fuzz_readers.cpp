@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One libFuzzer target a reader, chosen at compile time: what a stranger's bytes do to the parent process. A refusal
 // (Error) is an answer; anything else that is thrown, and whatever a sanitizer sees, is a find.
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>

@@ -109,9 +109,9 @@ double p_value_of_difference(const Estimate &m, double value, double tolerance) 
     return boost::math::cdf(complement(boost::math::students_t(m.degrees_of_freedom), excess / m.standard_error));
 }
 
-bool any_differs(std::vector<double> p_values) {
+bool any_differs(std::vector<double> p_values, double level) {
     if (p_values.empty()) return false;
-    return *std::ranges::min_element(p_values) * static_cast<double>(p_values.size()) <= significance;
+    return *std::ranges::min_element(p_values) * static_cast<double>(p_values.size()) <= level;
 }
 
 double total(const std::vector<BudgetItem> &budget) {

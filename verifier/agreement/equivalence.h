@@ -54,8 +54,8 @@ std::optional<int> replicates_to_decide(const Estimate &measured, Relation relat
 
 /// One-sided p-value of "the true mean is not outside value +- tolerance"; small means that it differs.
 double p_value_of_difference(const Estimate &measured, double value, double tolerance);
-/// Holm's step-down test (1979): does any of these differ, at the family level `significance`?
-bool any_differs(std::vector<double> p_values);
+/// Holm's step-down test (1979): does any of these differ, at the family level `level`?
+bool any_differs(std::vector<double> p_values, double level = significance);
 
 /// One item of a tolerance, fixed before rendering.
 struct BudgetItem {

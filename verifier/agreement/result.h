@@ -2,6 +2,7 @@
 // What a run found: plain values that the report, the JSON and the terminal all print from.
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <string>
@@ -52,6 +53,8 @@ struct TileComparison {
     int worst_column = 0, worst_row = 0;
     int holding = 0, failing = 0, open = 0; ///< tiles by their own interval
     double needed_share = 1;                ///< of all tiles must hold
+    int replicates = 0;                     ///< the fewer of both renderers'
+    double level = first_look;              ///< of each tile's test: `first_look` or `second_look`
     Verdict verdict = Verdict::undecided;
     std::optional<int> replicates_to_decide;
 };
@@ -140,6 +143,7 @@ struct RunResult {
     std::vector<std::pair<std::string, std::string>> versions; ///< libraries and renderers
     std::vector<WitnessRecord> witnesses;
     std::vector<ClaimResult> claims; ///< calibration first
+    std::size_t claims_planned = 0;  ///< while the run goes on there are more of these than `claims`
     std::vector<RenderRecord> renders;
     Verdict verdict = Verdict::undecided;
     std::string summary;

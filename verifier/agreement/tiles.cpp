@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "verifier/measure/radiance.h"
 
@@ -18,7 +19,7 @@ Estimate of_channel(const std::vector<Image> &tiles, std::size_t tile, int chann
 
 /// Judges the differences of all tiles; `difference_of(tile, channel)` has the noise.
 template <class DifferenceOf>
-TileComparison judge_tiles(int columns, int rows, int tile_px, double tolerance, double needed_share,
+TileComparison judge_tiles(int columns, int rows, int tile_px, double tolerance, double needed_share, double level,
                            DifferenceOf difference_of) {
     TileComparison c;
     c.tile_px = tile_px;
@@ -26,20 +27,20 @@ TileComparison judge_tiles(int columns, int rows, int tile_px, double tolerance,
     c.rows = rows;
     c.tolerance = tolerance;
     c.needed_share = needed_share;
+    c.level = level;
     std::vector<double> p_values;
-    int needed = 0;
-    bool decidable = true;
+    std::vector<double> replicates_needed; // by each open tile
     for (int tile = 0; tile < columns * rows; ++tile) {
         Verdict verdict = Verdict::holds;
+        double needed = 0;
         for (int channel = 0; channel < 3; ++channel) {
             const Estimate d = difference_of(static_cast<std::size_t>(tile), channel);
-            const Verdict v = judge(interval(d), Relation::equal, 0, tolerance);
+            const Verdict v = judge(interval(d, level), Relation::equal, 0, tolerance);
             verdict = all_of(verdict, v);
             p_values.push_back(p_value_of_difference(d, 0, tolerance));
             if (v == Verdict::undecided) {
-                const auto n = replicates_to_decide(d, Relation::equal, 0, tolerance);
-                decidable = decidable && n.has_value();
-                needed = std::max(needed, n.value_or(0));
+                const auto n = replicates_to_decide(d, Relation::equal, 0, tolerance, level);
+                needed = std::max(needed, n ? *n : std::numeric_limits<double>::infinity());
             }
             if (std::abs(d.mean) > std::abs(c.worst_difference)) {
                 c.worst_difference = d.mean;
@@ -56,27 +57,34 @@ TileComparison judge_tiles(int columns, int rows, int tile_px, double tolerance,
             break;
         case Verdict::undecided:
             ++c.open;
+            replicates_needed.push_back(needed);
             break;
         }
     }
     const double others = (1 - needed_share) * columns * rows; // so many may be otherwise
-    if (c.failing > others && any_differs(std::move(p_values)))
+    if (c.failing > others && any_differs(std::move(p_values), level))
         c.verdict = Verdict::fails;
     else
         c.verdict = c.failing + c.open <= others ? Verdict::holds : Verdict::undecided;
-    if (c.verdict == Verdict::undecided && decidable && needed > 0) c.replicates_to_decide = needed;
+    if (c.verdict == Verdict::undecided && c.failing <= others) {
+        // As many of the open tiles as must still hold, the easiest first.
+        std::ranges::sort(replicates_needed);
+        const auto to_settle = static_cast<std::size_t>(c.failing + c.open - static_cast<int>(others));
+        const double needed = replicates_needed.at(to_settle - 1);
+        if (std::isfinite(needed)) c.replicates_to_decide = static_cast<int>(needed);
+    }
     return c;
 }
 
 } // namespace
 
 TileComparison compare_tiles(const std::vector<Image> &a, const std::vector<Image> &b, int tile_px, double tolerance,
-                             double needed_share, bool paired) {
+                             double needed_share, bool paired, double level) {
     std::vector<Image> tiles_a, tiles_b;
     for (const Image &image : a) tiles_a.push_back(tile_means(image, tile_px));
     for (const Image &image : b) tiles_b.push_back(tile_means(image, tile_px));
     TileComparison c =
-        judge_tiles(tiles_a.front().width, tiles_a.front().height, tile_px, tolerance, needed_share,
+        judge_tiles(tiles_a.front().width, tiles_a.front().height, tile_px, tolerance, needed_share, level,
                     [&](std::size_t tile, int channel) {
                         if (!paired)
                             return difference(of_channel(tiles_a, tile, channel), of_channel(tiles_b, tile, channel));
@@ -86,6 +94,7 @@ TileComparison compare_tiles(const std::vector<Image> &a, const std::vector<Imag
                         return estimate(differences);
                     });
     c.mean_radiance = (mean_radiance(mean(a)) + mean_radiance(mean(b))) / 2;
+    c.replicates = static_cast<int>(std::min(a.size(), b.size()));
     return c;
 }
 
@@ -98,7 +107,7 @@ TileComparison compare_tiles_of_single_pictures(const Image &a, const Image &b, 
     const Image means = tile_means(d, tile_px), mean_squares = tile_means(squares, tile_px);
     const double n = static_cast<double>(std::min(tile_px, a.width)) * std::min(tile_px, a.height);
     TileComparison c =
-        judge_tiles(means.width, means.height, tile_px, tolerance, 1, [&](std::size_t tile, int channel) {
+        judge_tiles(means.width, means.height, tile_px, tolerance, 1, significance, [&](std::size_t tile, int channel) {
             const double m = means.pixels[tile][channel];
             const double variance = std::max(0.0, mean_squares.pixels[tile][channel] - m * m) * n / (n - 1);
             return Estimate{m, std::sqrt(variance / n), n - 1, 1};

@@ -12,6 +12,7 @@
 
 #include "scenes/error.h"
 #include "verifier/agreement/result.h"
+#include "verifier/check/run_progress.h"
 #include "verifier/claims/claim.h"
 #include "verifier/witness/witness.h"
 
@@ -26,7 +27,7 @@ struct CheckRequest {
     bool quick = false;
     std::uint64_t seed = 1;
     std::map<std::string, std::uint64_t> seeds; ///< by witness name, in place of `seed`
-    int threads = 0;
+    int threads = 0;                            ///< cores to use at once by all renderers together; 0: all
     /// Noise of the mean picture of every experiment that is a mean over pixels, relative RMS: each renderer's samples
     /// are chosen by it. Pictures that are compared tile by tile never get more noise than their tiles' budget allows,
     /// those that numbers are read from never fewer samples than their claim asks. Empty: the claims' own samples.
@@ -35,8 +36,9 @@ struct CheckRequest {
     std::chrono::milliseconds time_limit{std::chrono::minutes(10)};
     std::filesystem::path folder;
     std::map<std::string, InjectedFault> injected; ///< by witness name
-    /// `share` of all that this witness has to do.
-    std::function<void(const std::string &witness, double share, const std::string &now)> on_progress;
+    OnProgress on_progress;
+    /// A claim is concluded: it, and the run so far. From the thread that called `check`.
+    std::function<void(const ClaimResult &claim, const RunResult &so_far)> on_claim;
 };
 
 struct CheckOutcome {

@@ -12,7 +12,8 @@ namespace threefold {
 
 namespace {
 
-constexpr int most_replicates = 96; ///< of a second look
+constexpr int most_replicates = 96;             ///< of a second look at numbers
+constexpr int most_replicates_of_pictures = 32; ///< whole pictures cost more
 /// How many times the replicates are made that would decide if mean and spread stayed as they are: they do not.
 constexpr double second_look_reserve = 2;
 
@@ -125,6 +126,19 @@ int replicates_for_second_look(const std::string &witness, int replicates, const
             wanted = std::max(wanted, std::min(most_replicates, static_cast<int>(std::ceil(n * second_look_reserve))));
         else if (enough(luckier(row)) <= most_replicates)
             wanted = most_replicates;
+    }
+    return wanted > replicates ? wanted : 0;
+}
+
+int replicates_for_second_look(const std::string &witness, int replicates, const std::vector<TileComparison> &tiles) {
+    int wanted = 0;
+    for (const TileComparison &t : tiles) {
+        if (t.verdict != Verdict::undecided || (t.witness != witness && t.versus != witness)) continue;
+        if (!t.replicates_to_decide || *t.replicates_to_decide > most_replicates_of_pictures)
+            wanted = most_replicates_of_pictures;
+        else
+            wanted = std::max(wanted, std::min(most_replicates_of_pictures,
+                                               static_cast<int>(*t.replicates_to_decide * second_look_reserve)));
     }
     return wanted > replicates ? wanted : 0;
 }

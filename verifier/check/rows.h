@@ -34,5 +34,7 @@ std::vector<Row> judged_rows(const Experiment &e, const std::vector<Testimony> &
 /// them is worth it: where even the greatest number would not do, were the true mean a standard error off to the good
 /// side.
 int replicates_for_second_look(const std::string &witness, int replicates, const std::vector<Row> &rows);
+/// The same of its pictures. `tiles`: judged at `second_look`.
+int replicates_for_second_look(const std::string &witness, int replicates, const std::vector<TileComparison> &tiles);
 
 } // namespace threefold

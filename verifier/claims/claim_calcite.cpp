@@ -23,8 +23,8 @@ namespace threefold {
 
 namespace {
 
-constexpr double landing_goal = 1e-4; ///< of the radius: what tessellation may cost a landing point
-constexpr double card_share = 0.98;   ///< of the card's half width: both images land within it
+constexpr double calcite_landing_goal = 1e-4; ///< of the radius: what tessellation may cost a landing point
+constexpr double card_share = 0.98;           ///< of the card's half width: both images land within it
 constexpr double steepest_share = 0.97;
 
 const std::string displacement = "displacement by one ray, root mean square";
@@ -154,8 +154,8 @@ std::vector<BudgetItem> landing_budget(const Calcite &c, const OrbInScene &orb, 
             {"mean", 1e-7 * orb.optics.outer_mm, "the closed form's mean over the disc, by 4000 rings"}};
 }
 
-Experiment map_experiment(const ClaimContext &context, const std::string &name, const std::string &title,
-                          const std::string &ray, const std::vector<Assignment> &more) {
+Experiment calcite_experiment(const ClaimContext &context, const std::string &name, const std::string &title,
+                              const std::string &ray, const std::vector<Assignment> &more) {
     const std::string size = context.quick ? "48" : "96";
     std::vector<Assignment> fixed{assign("calcite.ray", ray), assign("card.surface", "coordinate"),
                                   assign("glass.coating", "antireflective"),
@@ -171,10 +171,10 @@ Experiment map_experiment(const ClaimContext &context, const std::string &name, 
 
 Experiment ordinary_experiment(const ClaimContext &context) {
     Experiment e =
-        map_experiment(context, "calcite-ordinary", "where the ordinary ray of each pixel lands", "ordinary", {});
+        calcite_experiment(context, "calcite-ordinary", "where the ordinary ray of each pixel lands", "ordinary", {});
     const Calcite c = calcite_with(context, {});
     const double leverage = landing_leverage(e.scene, c.visible_mm / c.ordinary_orb.optics.outer_mm, 0.9);
-    e.surface_tolerance_mm = std::max(landing_goal / leverage, 2.5e-6) * c.ordinary_orb.optics.outer_mm;
+    e.surface_tolerance_mm = std::max(calcite_landing_goal / leverage, 2.5e-6) * c.ordinary_orb.optics.outer_mm;
     const double exact = exact_means(c).ordinary_mm;
     e.predict = [=](const Accuracy &a) {
         return std::vector<Expected>{
@@ -190,12 +190,12 @@ Experiment ordinary_experiment(const ClaimContext &context) {
 /// The second picture, and what takes both. `claimed`: on which side of the criterion the ratio is claimed to lie.
 Experiment extraordinary_experiment(const ClaimContext &context, const std::string &name, const std::string &title,
                                     Relation claimed, const std::vector<Assignment> &more) {
-    Experiment e = map_experiment(context, name, title, "extraordinary", more);
+    Experiment e = calcite_experiment(context, name, title, "extraordinary", more);
     const Calcite c = calcite_with(context, more);
     const double share = c.visible_mm / c.ordinary_orb.optics.outer_mm;
     const double own_leverage = landing_leverage(e.scene, share, 0.9);
     const double leverage = std::max(own_leverage, landing_leverage(c.ordinary, share, 0.9));
-    e.surface_tolerance_mm = std::max(landing_goal / leverage, 2.5e-6) * c.ordinary_orb.optics.outer_mm;
+    e.surface_tolerance_mm = std::max(calcite_landing_goal / leverage, 2.5e-6) * c.ordinary_orb.optics.outer_mm;
     const DoubleImage exact = exact_means(c);
     e.predict = [=](const Accuracy &a) {
         const std::vector<BudgetItem> one = landing_budget(c, c.ordinary_orb, leverage, a);
@@ -265,7 +265,7 @@ std::optional<double> index_of_ratio(const ClaimContext &context, double wanted)
     return root_between([&](double n) { return ratio_at(context, n) - wanted; }, 1, 1 + (ordinary - 1) * 0.999);
 }
 
-std::optional<FlipPoint> flip_of(const ClaimContext &context) {
+std::optional<FlipPoint> calcite_flip_of(const ClaimContext &context) {
     const Calcite c = calcite_with(context, {});
     if (c.extraordinary_orb.optics.index >= c.ordinary_orb.optics.index) return std::nullopt;
     const auto value = index_of_ratio(context, c.least_ratio);
@@ -338,7 +338,7 @@ RealCrystal real_crystal(const Calcite &c) {
     return found;
 }
 
-std::vector<ScopeNumber> scope(const ClaimContext &context, const ScopeSettings &settings) {
+std::vector<ScopeNumber> calcite_scope(const ClaimContext &context, const ScopeSettings &settings) {
     const Calcite c = calcite_with(context, {});
     const DoubleImage exact = exact_means(c);
     const double here = exact.distortion_mm / exact.separation_mm;
@@ -397,7 +397,7 @@ Claim claim_calcite() {
                         extraordinary_experiment(context, "calcite-extraordinary",
                                                  "where the extraordinary ray of each pixel lands", Relation::above,
                                                  {})};
-        if (const auto flip = flip_of(context))
+        if (const auto flip = calcite_flip_of(context))
             for (const BracketSide &side : bracket_of(flip->value))
                 all.push_back(
                     extraordinary_experiment(context, fmt::format("calcite-flip-{}", side.label),
@@ -448,10 +448,10 @@ Claim claim_calcite() {
         return notes;
     };
     claim.flips = [](const ClaimContext &context) {
-        const auto flip = flip_of(context);
+        const auto flip = calcite_flip_of(context);
         return flip ? std::vector{*flip} : std::vector<FlipPoint>{};
     };
-    claim.scope = scope;
+    claim.scope = calcite_scope;
     claim.mutant = Fault::index_one_percent;
     return claim;
 }

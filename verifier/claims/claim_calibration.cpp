@@ -72,7 +72,7 @@ std::vector<Reading> measure_radiance(const Scene &scene, const Image &image, co
     return {{"greatest error of a known radiance", worst}, {"radiance of the surroundings", image.at(0, 0).g}};
 }
 
-std::vector<ScopeNumber> scope(const ClaimContext &context, const ScopeSettings &) {
+std::vector<ScopeNumber> calibration_scope(const ClaimContext &context, const ScopeSettings &) {
     const Experiment e = claim_calibration().experiments(context).front();
     const LitBounds lit = nothing_is_lit(e.scene);
     EffectBounds bounds = none_of_them("there is no glass in its scene");
@@ -147,7 +147,7 @@ Claim claim_calibration() {
         }
         return "";
     };
-    claim.scope = scope;
+    claim.scope = calibration_scope;
     claim.mutant = Fault::camera_one_pixel;
     return claim;
 }

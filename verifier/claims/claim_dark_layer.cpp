@@ -24,7 +24,7 @@ namespace {
 constexpr double layer_from = 0.15, layer_to = 0.6; ///< of the rim's width, from the hollow outwards: what is measured
 constexpr double beside_from = 1.004, beside_to = 1.012; ///< of the orb's radius: the robe beside it
 constexpr double film_orb_share = 0.9;
-constexpr int rows_px = 16, margin_px = 2, columns_fine = 32;
+constexpr int layer_rows_px = 16, layer_margin_px = 2, columns_fine = 32;
 constexpr double least_layer_px = 4; ///< the measured part of the rim is at least so wide
 
 const std::string layer_radiance = "radiance of the layer, over the robe's";
@@ -120,9 +120,11 @@ void look_at_the_rim(Camera &camera, const OrbInScene &orb) {
     const double orb_px = px_per_mm * orb.optics.outer_mm;
     camera.width_px = camera.height_px =
         2 * static_cast<int>(std::clamp(std::ceil(orb_px / film_orb_share), 64.0, 1e7));
-    const int left = static_cast<int>(camera.width_px / 2.0 + radius_px(camera, orb, layer.from_mm)) - margin_px;
-    const int right = static_cast<int>(camera.width_px / 2.0 + radius_px(camera, orb, robe.to_mm)) + 1 + margin_px;
-    camera.crop = Crop{left, (camera.height_px - rows_px) / 2, std::min(right, camera.width_px) - left, rows_px};
+    const int left = static_cast<int>(camera.width_px / 2.0 + radius_px(camera, orb, layer.from_mm)) - layer_margin_px;
+    const int right =
+        static_cast<int>(camera.width_px / 2.0 + radius_px(camera, orb, robe.to_mm)) + 1 + layer_margin_px;
+    camera.crop =
+        Crop{left, (camera.height_px - layer_rows_px) / 2, std::min(right, camera.width_px) - left, layer_rows_px};
 }
 
 std::vector<Assignment> plain(const std::vector<Assignment> &more) {
@@ -179,7 +181,7 @@ std::vector<BudgetItem> share_budget(const Scene &scene, const OrbInScene &orb, 
             {"resolution", 0.002, "0.2 % of the light: the least difference that matters here"}};
 }
 
-double criterion(const ExperimentRecord &record) { return std::stod(record.parameters.at("criterion.contrast")); }
+double layer_criterion(const ExperimentRecord &record) { return std::stod(record.parameters.at("criterion.contrast")); }
 
 /// `claimed`: on which side of the criterion the contrast is claimed to lie.
 Experiment layer(const ClaimContext &context, const std::string &name, const std::string &title, Relation claimed,
@@ -187,7 +189,7 @@ Experiment layer(const ClaimContext &context, const std::string &name, const std
     Experiment e = base(context, name, title, more);
     const Scene scene = e.scene;
     const OrbInScene orb = orb_of(scene);
-    const double share = exact_share(scene, scene.camera, orb, columns_fine), least = criterion(e.record);
+    const double share = exact_share(scene, scene.camera, orb, columns_fine), least = layer_criterion(e.record);
     const double surroundings = grey_environment(scene) / robe_radiance(scene);
     const double expected = share * surroundings + 1 - share;
     const bool readable = robe_stands_beside(scene, orb);
@@ -244,14 +246,14 @@ std::optional<FlipPoint> brightness_flip(const ClaimContext &context) {
     const OrbInScene orb = orb_of(e.scene);
     const double share = exact_share(e.scene, e.scene.camera, orb, columns_fine), robe = robe_radiance(e.scene);
     // robe (1 - share) + surroundings * share = (1 - criterion) robe
-    const double value = robe * (1 - criterion(e.record) / share);
+    const double value = robe * (1 - layer_criterion(e.record) / share);
     if (!(value > 0) || !std::isfinite(value)) return std::nullopt;
     return FlipPoint{"environment.radiance",
                      "",
                      value,
                      grey_environment(e.scene),
                      fmt::format("in brighter surroundings the layer is not darker than the robe by {:g} %",
-                                 100 * criterion(e.record)),
+                                 100 * layer_criterion(e.record)),
                      {"layer-flip-below", "layer-flip-above"}};
 }
 
@@ -334,7 +336,7 @@ std::vector<ScopeNumber> scope_of(const ClaimContext &context, const ClaimContex
         const Experiment e = base(thick ? doubled : context, "", "", {});
         const OrbInScene orb = orb_of(e.scene);
         const double surroundings = grey_environment(e.scene) / robe_radiance(e.scene), gain = 1 - surroundings;
-        const double least = criterion(e.record);
+        const double least = layer_criterion(e.record);
         const auto share = [&](const OrbInScene &o, const LightModel &model, Vec2 aside) {
             return exact_share(e.scene, e.scene.camera, o, fine, model, aside);
         };

@@ -149,7 +149,7 @@ double darkest_ring(const OrbInScene &orb, const LightModel &model) {
     return darkest;
 }
 
-std::vector<ScopeNumber> scope(const ClaimContext &context, const ScopeSettings &settings) {
+std::vector<ScopeNumber> energy_scope(const ClaimContext &context, const ScopeSettings &settings) {
     std::vector<ScopeNumber> numbers;
     for (const std::string kind : {"hollow", "solid"}) {
         const Experiment e = furnace(context, kind);
@@ -203,7 +203,7 @@ Claim claim_energy() {
         }
         return "";
     };
-    claim.scope = scope;
+    claim.scope = energy_scope;
     claim.mutant = Fault::radiance_slip;
     return claim;
 }

@@ -38,7 +38,7 @@ Experiment view(const ClaimContext &context) {
     return e;
 }
 
-Experiment edges(const ClaimContext &context) {
+Experiment edges_experiment(const ClaimContext &context) {
     const double criterion = fold_numbers(context, {}).criterion_mm;
     FoldPlan plan;
     plan.name = "folds-edges";
@@ -60,7 +60,7 @@ Claim claim_folds() {
     claim.statement = "A fold that lies in a plane with the eye and the orb's centre crosses the orb's boundary "
                       "unbroken; the leftmost fold, which passes the centre, breaks so far that the eye sees it.";
     claim.experiments = [](const ClaimContext &context) {
-        std::vector<Experiment> all{view(context), edges(context)};
+        std::vector<Experiment> all{view(context), edges_experiment(context)};
         const FoldSearch search = miss_search(context);
         if (const auto flip = fold_flip(context, search))
             for (Experiment &e : fold_brackets(context, search, "folds-flip", *flip)) all.push_back(std::move(e));

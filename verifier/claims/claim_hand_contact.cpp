@@ -18,7 +18,7 @@ namespace {
 
 constexpr double soft_mm = 0.5;         ///< skin gives way by as much
 constexpr double rounding_share = 1e-6; ///< of the radius: an overlap below it is a contact, rounded
-constexpr double coarse_relief = 24;    ///< the robe is not looked at
+constexpr double unseen_relief = 24;    ///< the robe is not looked at
 constexpr const char *distance = "smallest distance from hand to orb";
 constexpr const char *touches = "the hand touches the orb (under 0.5 mm)";
 constexpr const char *apart = "the hand nowhere overlaps the orb";
@@ -36,13 +36,13 @@ Sphere sphere_of(const Scene &scene) {
 
 double clearance_in(const Scene &scene) { return clearance_mm(hand_of(scene), sphere_of(scene)); }
 
-Experiment experiment(const ClaimContext &context, const std::string &name, const std::string &title,
-                      const std::vector<Assignment> &fixed) {
-    return context.experiment(name, title, "salvator", {assign("robe.relief_resolution", coarse_relief)}, fixed);
+Experiment hold_experiment(const ClaimContext &context, const std::string &name, const std::string &title,
+                           const std::vector<Assignment> &fixed) {
+    return context.experiment(name, title, "salvator", {assign("robe.relief_resolution", unseen_relief)}, fixed);
 }
 
 Experiment contact_experiment(const ClaimContext &context) {
-    Experiment e = experiment(context, "hand-contact", "the hand and the orb, measured in the scene itself", {});
+    Experiment e = hold_experiment(context, "hand-contact", "the hand and the orb, measured in the scene itself", {});
     const double exact = clearance_in(e.scene), radius = sphere_of(e.scene).radius_mm;
     e.predict = [=](const Accuracy &) {
         return std::vector<Expected>{
@@ -75,7 +75,7 @@ struct Hold {
 };
 
 Hold hold_of(const ClaimContext &context) {
-    const Experiment e = experiment(context, "", "", {});
+    const Experiment e = hold_experiment(context, "", "", {});
     return {std::stod(e.record.parameters.at("hand.drop_mm")), sphere_of(e.scene), hand_of(e.scene)};
 }
 
@@ -94,14 +94,14 @@ std::optional<double> drop_at(const Hold &hold, double threshold_mm) {
     return std::nullopt;
 }
 
-struct Flip {
+struct HoldFlip {
     std::string name; ///< of its two experiments, without "-below" and "-above"
     double threshold_mm;
     std::string meaning;
     std::optional<double> drop_mm;
 };
 
-std::vector<Flip> flips_of(const Hold &hold) {
+std::vector<HoldFlip> hold_flips_of(const Hold &hold) {
     const double overlap = -rounding_share * hold.orb.radius_mm;
     return {{"hand-contact-flip", soft_mm,
              "lowered by more (raised by less, where negative), the hand no longer touches the orb",
@@ -110,15 +110,16 @@ std::vector<Flip> flips_of(const Hold &hold) {
              "raised by more (lowered by less, where positive), the hand overlaps the orb", drop_at(hold, overlap)}};
 }
 
-std::vector<Experiment> bracket_experiments(const ClaimContext &context, const Hold &hold) {
+std::vector<Experiment> hold_bracket_experiments(const ClaimContext &context, const Hold &hold) {
     std::vector<Experiment> all;
-    for (const Flip &flip : flips_of(hold)) {
+    for (const HoldFlip &flip : hold_flips_of(hold)) {
         if (!flip.drop_mm) continue;
         for (const auto &[label, drop] : bracket_of(*flip.drop_mm)) {
-            Experiment e = experiment(context, fmt::format("{}-{}", flip.name, label),
-                                      fmt::format("the hand moved {:.4g} mm down, just {} where it {}", drop, label,
-                                                  flip.threshold_mm > 0 ? "loses the orb" : "enters the orb"),
-                                      {assign("hand.drop_mm", drop)});
+            Experiment e =
+                hold_experiment(context, fmt::format("{}-{}", flip.name, label),
+                                fmt::format("the hand moved {:.4g} mm down, just {} where it {}", drop, label,
+                                            flip.threshold_mm > 0 ? "loses the orb" : "enters the orb"),
+                                {assign("hand.drop_mm", drop)});
             const Relation side = hold.clearance_at(drop) < flip.threshold_mm ? Relation::below : Relation::above;
             e.predict = [side, threshold = flip.threshold_mm](const Accuracy &) {
                 return std::vector<Expected>{{distance, "mm", side, threshold, {}}};
@@ -130,7 +131,7 @@ std::vector<Experiment> bracket_experiments(const ClaimContext &context, const H
     return all;
 }
 
-std::vector<ScopeNumber> scope(const ClaimContext &context, const ScopeSettings &) {
+std::vector<ScopeNumber> hold_scope(const ClaimContext &context, const ScopeSettings &) {
     const Hold hold = hold_of(context);
     const double clearance = hold.clearance_at(hold.drop_mm), overlap = -rounding_share * hold.orb.radius_mm;
     const EffectBounds none = none_of_them("it is a distance in the scene: no light is followed for it");
@@ -148,7 +149,7 @@ Claim claim_hand_contact() {
     claim.statement = "The hand touches the orb softly (under 0.5 mm) and nowhere overlaps it.";
     claim.experiments = [](const ClaimContext &context) {
         std::vector<Experiment> all{contact_experiment(context)};
-        for (Experiment &e : bracket_experiments(context, hold_of(context))) all.push_back(std::move(e));
+        for (Experiment &e : hold_bracket_experiments(context, hold_of(context))) all.push_back(std::move(e));
         return all;
     };
     claim.summary = [](const ClaimContext &context, Verdict verdict) -> std::string {
@@ -176,7 +177,7 @@ Claim claim_hand_contact() {
             "Nothing is rendered for this claim: the distance between the hand's triangles and the sphere is exact, "
             "and is measured in the scene as each renderer gets it."};
         const Hold hold = hold_of(context);
-        for (const Flip &flip : flips_of(hold))
+        for (const HoldFlip &flip : hold_flips_of(hold))
             if (!flip.drop_mm)
                 notes.push_back(
                     fmt::format("No shift of the hand up or down by up to {:.4g} mm brings it to where it {}.",
@@ -187,7 +188,7 @@ Claim claim_hand_contact() {
     claim.flips = [](const ClaimContext &context) {
         const Hold hold = hold_of(context);
         std::vector<FlipPoint> points;
-        for (const Flip &flip : flips_of(hold))
+        for (const HoldFlip &flip : hold_flips_of(hold))
             if (flip.drop_mm)
                 points.push_back({"hand.drop_mm",
                                   "mm",
@@ -197,7 +198,7 @@ Claim claim_hand_contact() {
                                   {flip.name + "-below", flip.name + "-above"}});
         return points;
     };
-    claim.scope = scope;
+    claim.scope = hold_scope;
     claim.mutant = Fault::orb_one_millimetre;
     return claim;
 }

@@ -213,7 +213,7 @@ std::vector<Experiment> experiments(const ClaimContext &context) {
     return all;
 }
 
-std::vector<ScopeNumber> scope(const ClaimContext &context, const ScopeSettings &settings) {
+std::vector<ScopeNumber> palm_scope(const ClaimContext &context, const ScopeSettings &settings) {
     constexpr int coarse_grid = 96; // rays across the orb: a thousand or so are the palm's
     const Setting setting = setting_of(context);
     std::vector<ScopeNumber> numbers;
@@ -289,7 +289,7 @@ Claim claim_palm() {
                      {fmt::format("palm-{}-flip-below", flip.kind), fmt::format("palm-{}-flip-above", flip.kind)}});
         return points;
     };
-    claim.scope = scope;
+    claim.scope = palm_scope;
     claim.mutant = Fault::inner_surface_missing;
     return claim;
 }

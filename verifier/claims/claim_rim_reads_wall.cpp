@@ -264,7 +264,7 @@ double width_seen(const optics::Orb<double> &orb, double eye_mm, Vec2 aside_mm) 
     return seen(orb.outer_mm) - seen(orb.outer_mm - optics::rim_width(orb));
 }
 
-std::vector<ScopeNumber> scope(const ClaimContext &context, const ScopeSettings &settings) {
+std::vector<ScopeNumber> rim_scope(const ClaimContext &context, const ScopeSettings &settings) {
     const double wall = run_wall_mm(context);
     const Experiment e = width_experiment(context, "", "", wall);
     const OrbInScene orb = orb_of(e.scene);
@@ -335,7 +335,7 @@ Claim claim_rim_reads_wall() {
             optics::critical_radius(orb.optics), greatest_wall_mm(orb.optics))};
     };
     claim.flips = flip_points;
-    claim.scope = scope;
+    claim.scope = rim_scope;
     claim.mutant = Fault::wall_doubled;
     return claim;
 }

@@ -71,7 +71,7 @@ std::vector<double> irradiance_by_row(const Stage &stage, const Scene &scene) {
     return rows;
 }
 
-double arcmin(double length_mm, double distance_mm) {
+double width_arcmin(double length_mm, double distance_mm) {
     return std::atan(length_mm / distance_mm) * 180 * 60 / std::numbers::pi;
 }
 
@@ -84,7 +84,7 @@ std::vector<Reading> readings(const std::vector<double> &irradiance, const Stage
     return {{std::string(full_light), p.light},
             {std::string(umbra), p.dark},
             {std::string(width), width_mm},
-            {std::string(seen), arcmin(width_mm, stage.eye_to_wall_mm)}};
+            {std::string(seen), width_arcmin(width_mm, stage.eye_to_wall_mm)}};
 }
 
 Experiment penumbra_experiment(const ClaimContext &context, const std::string &name, const std::string &title,
@@ -182,7 +182,7 @@ std::vector<double> with_reflected_light(const Stage &stage, const Scene &scene)
     return rows;
 }
 
-std::vector<ScopeNumber> scope(const ClaimContext &context, const ScopeSettings &settings) {
+std::vector<ScopeNumber> soft_light_scope(const ClaimContext &context, const ScopeSettings &settings) {
     const Experiment e = penumbra_experiment(context, "", "", {}, Relation::above);
     const Stage stage = stage_of(e);
     const std::vector<Reading> here = readings(irradiance_by_row(stage, e.scene), stage),
@@ -278,7 +278,7 @@ Claim claim_soft_light() {
         }
         return flips;
     };
-    claim.scope = scope;
+    claim.scope = soft_light_scope;
     claim.mutant = Fault::light_missing;
     return claim;
 }

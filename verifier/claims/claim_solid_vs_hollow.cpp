@@ -309,7 +309,7 @@ std::string materials_above(double index) {
     return above.empty() ? "" : fmt::format(" Above it lie {}.", fmt::join(above, ", "));
 }
 
-std::vector<ScopeNumber> scope(const ClaimContext &context, const ScopeSettings &settings) {
+std::vector<ScopeNumber> map_scope(const ClaimContext &context, const ScopeSettings &settings) {
     std::vector<ScopeNumber> numbers;
     for (const std::string kind : {"solid", "hollow"}) {
         const View view = view_of(context, kind);
@@ -415,7 +415,7 @@ Claim claim_solid_vs_hollow() {
                              {"solid-vs-hollow-plane-below", "solid-vs-hollow-plane-above"}});
         return flips;
     };
-    claim.scope = scope;
+    claim.scope = map_scope;
     claim.mutant = Fault::index_one_percent;
     return claim;
 }

@@ -27,11 +27,11 @@ namespace threefold {
 
 namespace {
 
-constexpr double film_orb_share = 0.8; ///< of the film's width that the orb fills
+constexpr double lines_orb_share = 0.8; ///< of the film's width that the orb fills
 constexpr double pixels_per_half_width = 6;
-constexpr int margin_px = 6, most_px = 640;
-constexpr double reading_px = 0.01;       ///< cubic convolution errs by a tenth of it, see tests/dark_line_test.cpp
-constexpr double finest_surface = 1.2e-5; ///< of the radius: finer spheres cost seconds and move no verdict
+constexpr int lines_margin_px = 6, most_px = 640;
+constexpr double reading_px = 0.01;      ///< cubic convolution errs by a tenth of it, see tests/dark_line_test.cpp
+constexpr double lines_surface = 1.2e-5; ///< of the radius: finer spheres cost seconds and move no verdict
 
 /// Looks straight at the axis, the orb at a stated share of the film, whose pixels resolve the lines where they look
 /// narrowest; of it only the crossing.
@@ -40,7 +40,7 @@ Camera measuring_camera(const LinesAsked &asked, Camera camera) {
     const double eye = std::abs(camera.eye_mm.z - orb.centre_mm.z), radius = orb.optics.outer_mm;
     camera.eye_mm = {0, 0, camera.eye_mm.z};
     camera.target_mm = Vec3(0);
-    const double reach = (radius + glm::length(Vec2(orb.centre_mm))) / film_orb_share;
+    const double reach = (radius + glm::length(Vec2(orb.centre_mm))) / lines_orb_share;
     camera.orthographic_width_mm = 2 * reach;
     camera.horizontal_fov_deg = 360 / std::numbers::pi * std::atan(reach / std::sqrt((eye - radius) * (eye + radius)));
 
@@ -73,14 +73,14 @@ Camera measuring_camera(const LinesAsked &asked, Camera camera) {
         camera.width_px = camera.height_px = 64;
         return camera;
     }
-    film_px = std::min(film_px, (most_px - 2 * margin_px) * coarse_px / std::max(high.x - low.x, high.y - low.y));
+    film_px = std::min(film_px, (most_px - 2 * lines_margin_px) * coarse_px / std::max(high.x - low.x, high.y - low.y));
     const int side = 2 * static_cast<int>(std::ceil(std::clamp(film_px, 32.0, 1e8) / 2));
     const double scale = side / coarse_px;
     const auto clamped = [side](double px) { return std::clamp(static_cast<int>(px), 0, side); };
     camera.width_px = camera.height_px = side;
-    Crop crop{clamped(low.x * scale - margin_px), clamped(low.y * scale - margin_px), 0, 0};
-    crop.width_px = std::max(1, clamped(std::ceil(high.x * scale) + margin_px) - crop.x_px);
-    crop.height_px = std::max(1, clamped(std::ceil(high.y * scale) + margin_px) - crop.y_px);
+    Crop crop{clamped(low.x * scale - lines_margin_px), clamped(low.y * scale - lines_margin_px), 0, 0};
+    crop.width_px = std::max(1, clamped(std::ceil(high.x * scale) + lines_margin_px) - crop.x_px);
+    crop.height_px = std::max(1, clamped(std::ceil(high.y * scale) + lines_margin_px) - crop.y_px);
     camera.crop = crop;
     return camera;
 }
@@ -144,7 +144,7 @@ struct ReadLine {
     }
 };
 
-ReadLine read(const LinesAsked &asked, const Image &image, const Camera &camera, int channel) {
+ReadLine read_line(const LinesAsked &asked, const Image &image, const Camera &camera, int channel) {
     const auto on = [&](double impact) {
         const double azimuth = asked.view.circles.azimuth_rad, reach = std::numbers::pi / 2;
         return dark_centre(
@@ -158,7 +158,7 @@ ReadLine read(const LinesAsked &asked, const Image &image, const Camera &camera,
 std::vector<Reading> measure(const LinesAsked &asked, const Image &image, const Camera &camera) {
     std::vector<Reading> readings;
     for (const NamedLine &named : asked.lines) {
-        const double jump = read(asked, image, camera, named.channel).jump_mm();
+        const double jump = read_line(asked, image, camera, named.channel).jump_mm();
         const double seen = asked.arcmin(camera, jump);
         readings.push_back({"jump of the " + named.name, jump});
         readings.push_back({"jump of the " + named.name + " in the picture", jump / asked.picture_px_mm});
@@ -184,7 +184,7 @@ std::vector<Mark> draw(const LinesAsked &asked, const Image &image, const Camera
             if (const auto azimuth = azimuth_of(asked.view, camera, named.line, impact, 0))
                 add(image_position(camera, *ray_past(camera, asked.view.orb.centre_mm, impact, *azimuth)),
                     Mark::Meaning::expected, "line's centre, expected");
-        const ReadLine line = read(asked, image, camera, named.channel);
+        const ReadLine line = read_line(asked, image, camera, named.channel);
         for (const auto &centre : {line.inside, line.outside})
             if (centre) add(centre->image_px, Mark::Meaning::measured, "measured");
     }
@@ -202,7 +202,7 @@ Experiment measured_probe(const ClaimContext &context, std::string name, std::st
     e.shift_replicates = true;
     const optics::Orb<double> &orb = asked.view.orb.optics;
     e.surface_tolerance_mm =
-        std::max(orb.is_solid() ? 2.5e-5 * orb.outer_mm : 1.5e-3 * orb.wall_mm, finest_surface * orb.outer_mm);
+        std::max(orb.is_solid() ? 2.5e-5 * orb.outer_mm : 1.5e-3 * orb.wall_mm, lines_surface * orb.outer_mm);
     const LinesAsked copy = asked;
     e.measure = [copy](const Image &image, const Camera &camera) { return measure(copy, image, camera); };
     e.draw = [copy](const Image &image, const Camera &camera) { return draw(copy, image, camera); };
@@ -244,8 +244,8 @@ double beyond_acuity(const ClaimContext &context, std::string_view scene, std::s
 }
 
 /// From the greatest value downwards, the first octave in which the break passes the criterion.
-std::optional<double> flip_of(const ClaimContext &context, std::string_view scene, std::string_view name,
-                              double greatest) {
+std::optional<double> line_flip_of(const ClaimContext &context, std::string_view scene, std::string_view name,
+                                   double greatest) {
     const auto f = [&](double value) { return beyond_acuity(context, scene, name, value); };
     constexpr int octaves = 30;
     for (double high = greatest; high > greatest * std::exp2(-octaves); high /= 2)
@@ -253,14 +253,14 @@ std::optional<double> flip_of(const ClaimContext &context, std::string_view scen
     return std::nullopt;
 }
 
-struct Flip {
+struct LineFlip {
     std::string scene, parameter, label, meaning;
     std::optional<double> value;
     double here = 0;
 };
 
-std::vector<Flip> flips_of(const ClaimContext &context) {
-    std::vector<Flip> flips;
+std::vector<LineFlip> line_flips_of(const ClaimContext &context) {
+    std::vector<LineFlip> flips;
     for (const std::string kind : {"hollow", "solid"}) {
         const std::string scene = "three-lines-" + kind;
         const Experiment e = lines_probe(context, "", "", scene, {});
@@ -269,22 +269,23 @@ std::vector<Flip> flips_of(const ClaimContext &context) {
                          fmt::format("beside the {} orb's middle line, a line breaks noticeably only when it is "
                                      "shifted by more than this",
                                      kind),
-                         flip_of(context, scene, shift_name, orb.optics.outer_mm), number_of(e, shift_name)});
+                         line_flip_of(context, scene, shift_name, orb.optics.outer_mm), number_of(e, shift_name)});
         if (kind == "hollow")
             flips.push_back({scene, wall_name, "wall",
                              "through a wall thinner than this even the lines beside the middle one seem unbroken",
-                             flip_of(context, scene, wall_name, 0.5 * orb.optics.outer_mm), number_of(e, wall_name)});
+                             line_flip_of(context, scene, wall_name, 0.5 * orb.optics.outer_mm),
+                             number_of(e, wall_name)});
     }
     return flips;
 }
 
-std::string bracket_name(const Flip &flip, std::string_view side) {
+std::string bracket_name(const LineFlip &flip, std::string_view side) {
     return fmt::format("three-lines-flip-{}-{}", flip.label, side);
 }
 
 std::vector<Experiment> bracket_experiments(const ClaimContext &context) {
     std::vector<Experiment> experiments;
-    for (const Flip &flip : flips_of(context)) {
+    for (const LineFlip &flip : line_flips_of(context)) {
         if (!flip.value) continue;
         for (const BracketSide &side : bracket_of(*flip.value)) {
             LinesAsked asked;
@@ -363,7 +364,7 @@ std::vector<std::string> notes(const ClaimContext &context) {
         "which only so near to the boundary is seen beyond its bend) and the circle at {:g} of the orb's radius. "
         "Nearer to the boundary it changes ever more steeply.",
         inside_share, bent.view.circles.inside_mm / bent.view.orb.clear_radius_mm(), outside_share));
-    for (const Flip &flip : flips_of(context))
+    for (const LineFlip &flip : line_flips_of(context))
         if (!flip.value)
             notes.push_back(fmt::format("{} ({}) has no flip point at these parameters.", flip.parameter, flip.scene));
     return notes;
@@ -387,7 +388,7 @@ Claim claim_three_lines() {
     claim.notes = notes;
     claim.flips = [](const ClaimContext &context) {
         std::vector<FlipPoint> points;
-        for (const Flip &flip : flips_of(context))
+        for (const LineFlip &flip : line_flips_of(context))
             if (flip.value)
                 points.push_back({flip.parameter,
                                   "mm",

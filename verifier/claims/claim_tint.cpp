@@ -23,9 +23,9 @@ namespace threefold {
 
 namespace {
 
-constexpr double centre_share = 0.2;                      ///< of the radius: "the centre" is within it
-constexpr double rim_share = 0.88, rim_half_share = 0.02; ///< "towards the rim": a ring about it
-constexpr double clear_most = 0.95;                       ///< of the hollow's radius: beyond it rays are flung aside
+constexpr double centre_share = 0.2;                                ///< of the radius: "the centre" is within it
+constexpr double rim_ring_share = 0.88, rim_ring_half_share = 0.02; ///< "towards the rim": a ring about it
+constexpr double clear_most = 0.95; ///< of the hollow's radius: beyond it rays are flung aside
 constexpr double beside_share = 1.02;
 constexpr double least_difference = 0.006; ///< of a brightness, that matters here
 
@@ -41,8 +41,8 @@ struct Regions {
 
 Regions regions_of(const OrbInScene &orb) {
     const double radius = orb.optics.outer_mm;
-    const double to = std::min((rim_share + rim_half_share) * radius, clear_most * orb.optics.inner_mm);
-    return {std::min(centre_share * radius, to / 3), to - 2 * rim_half_share * radius, to, beside_share * radius};
+    const double to = std::min((rim_ring_share + rim_ring_half_share) * radius, clear_most * orb.optics.inner_mm);
+    return {std::min(centre_share * radius, to / 3), to - 2 * rim_ring_half_share * radius, to, beside_share * radius};
 }
 
 int region(const Regions &r, double b) {
@@ -107,10 +107,12 @@ double card_half_width(const Scene &scene) {
     return farthest;
 }
 
-double criterion(const ExperimentRecord &record) { return std::stod(record.parameters.at("criterion.contrast")); }
+double contrast_criterion(const ExperimentRecord &record) {
+    return std::stod(record.parameters.at("criterion.contrast"));
+}
 
-Experiment experiment(const ClaimContext &context, const std::string &name, const std::string &title,
-                      std::string_view coating, const std::vector<Assignment> &more) {
+Experiment card_experiment(const ClaimContext &context, const std::string &name, const std::string &title,
+                           std::string_view coating, const std::vector<Assignment> &more) {
     const std::string size = context.quick ? "64" : "96";
     std::vector<Assignment> fixed{assign("glass.coating", coating), assign("card.surface", "plain"),
                                   assign("card.radiance", "1"),     assign("environment.radiance", "0"),
@@ -136,10 +138,10 @@ Experiment experiment(const ClaimContext &context, const std::string &name, cons
 /// Coated glass: the tint alone. `side`: on which side of the criterion the darkening is claimed to lie.
 Experiment alone(const ClaimContext &context, const std::string &name, const std::string &title, Relation side,
                  const std::vector<Assignment> &more) {
-    Experiment e = experiment(context, name, title, "antireflective", more);
+    Experiment e = card_experiment(context, name, title, "antireflective", more);
     const Scene scene = e.scene;
     const OrbInScene orb = orb_of(scene);
-    const double least = criterion(e.record), through = std::pow(orb.glass.interface_transmittance, 4);
+    const double least = contrast_criterion(e.record), through = std::pow(orb.glass.interface_transmittance, 4);
     e.predict = [=](const Accuracy &a) {
         const std::vector<BudgetItem> budget{{"quantisation", 4 * a.radiance_step, "a ratio of two stored radiances"},
                                              {"arithmetic", 2e-6, "products of a few shares in single precision"}};
@@ -155,8 +157,8 @@ Experiment alone(const ClaimContext &context, const std::string &name, const std
 }
 
 Experiment with_reflections(const ClaimContext &context) {
-    Experiment e =
-        experiment(context, "tint-glass", "a white card in the dark through tinted glass that reflects", "fresnel", {});
+    Experiment e = card_experiment(context, "tint-glass", "a white card in the dark through tinted glass that reflects",
+                                   "fresnel", {});
     const Scene scene = e.scene;
     const OrbInScene orb = orb_of(scene);
     const Ratios exact = exact_ratios(scene, scene.camera, orb);
@@ -185,9 +187,9 @@ Experiment with_reflections(const ClaimContext &context) {
     return e;
 }
 
-std::optional<FlipPoint> flip_of(const ClaimContext &context) {
+std::optional<FlipPoint> tint_flip_of(const ClaimContext &context) {
     const Experiment e = context.experiment("", "", "tint", {}, {});
-    const double least = criterion(e.record);
+    const double least = contrast_criterion(e.record);
     const auto value = root_between([&](double tau) { return 1 - std::pow(tau, 4) - least; }, 0.01, 1);
     if (!value || *value >= 1) return std::nullopt;
     return FlipPoint{"glass.interface_transmittance",
@@ -217,7 +219,7 @@ double mean_over(const Scene &scene, const OrbInScene &orb, double from_mm, doub
     return sum / weights;
 }
 
-std::vector<ScopeNumber> scope(const ClaimContext &context, const ScopeSettings &settings) {
+std::vector<ScopeNumber> tint_scope(const ClaimContext &context, const ScopeSettings &settings) {
     const Experiment glass = with_reflections(context), coated = alone(context, "", "", Relation::above, {});
     const Scene &scene = glass.scene;
     const OrbInScene orb = orb_of(scene);
@@ -252,7 +254,7 @@ std::vector<ScopeNumber> scope(const ClaimContext &context, const ScopeSettings 
                        margin_words({1 - least_difference}, ""), of_ratio});
 
     // Coated: nothing is reflected, so that only the tint and what the glass absorbs are left.
-    const double least = criterion(coated.record), tint = std::pow(orb.glass.interface_transmittance, 4);
+    const double least = contrast_criterion(coated.record), tint = std::pow(orb.glass.interface_transmittance, 4);
     const double lost = 1 - std::exp(-2 * settings.absorption_per_mm * orb.optics.wall_mm);
     const LitBounds lit = nothing_is_lit(coated.scene);
     const char *alike = "coated glass reflects neither polarisation at any index: the tint stands alone, as a factor";
@@ -281,7 +283,7 @@ Claim claim_tint() {
         std::vector all{
             alone(context, "tint-alone", "a white card in the dark through tinted, coated glass", Relation::above, {}),
             with_reflections(context)};
-        if (const auto flip = flip_of(context))
+        if (const auto flip = tint_flip_of(context))
             for (const BracketSide &side : bracket_of(flip->value))
                 all.push_back(alone(context, fmt::format("tint-flip-{}", side.label),
                                     fmt::format("an interface transmittance just {} the flip point", side.label),
@@ -326,10 +328,10 @@ Claim claim_tint() {
                 100 * (at(b).polarised / at(b).unpolarised - 1))};
     };
     claim.flips = [](const ClaimContext &context) {
-        const auto flip = flip_of(context);
+        const auto flip = tint_flip_of(context);
         return flip ? std::vector{*flip} : std::vector<FlipPoint>{};
     };
-    claim.scope = scope;
+    claim.scope = tint_scope;
     claim.mutant = Fault::inner_surface_missing;
     return claim;
 }

@@ -24,11 +24,12 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double study_wall_mm = 1.3;
-constexpr double least_wall_share = 1e-6;    ///< of the radius: where the search for limits begins
-constexpr double rim_px = 8, margin_px = 12; ///< the rim in the picture, and what lies beside it
-constexpr int rows_px = 32;
-constexpr double orb_share = 0.8;                            ///< of the film's width
-constexpr double wall_error = 3e-3, finest_surface = 2.5e-6; ///< of the wall, of the radius: how far spheres may stray
+constexpr double least_wall_share = 1e-6;          ///< of the radius: where the search for limits begins
+constexpr double rim_px = 8, limit_margin_px = 12; ///< the rim in the picture, and what lies beside it
+constexpr int limit_rows_px = 32;
+constexpr double limit_orb_share = 0.8; ///< of the film's width
+constexpr double wall_error = 3e-3,
+                 limit_finest_surface = 2.5e-6; ///< of the wall, of the radius: how far spheres may stray
 const std::vector<std::size_t> all_folds{0, 1, 2, 3, 4};
 const std::string rim_quantity = "width of the dark rim, seen from the eye";
 
@@ -78,23 +79,23 @@ Experiment rim_experiment(const ClaimContext &context, const Limits &limits, con
         context.experiment(name, "the right edge of a hollow orb, magnified", "furnace", {},
                            joined({assign("orb.kind", "hollow"), assign("glass.coating", "antireflective"),
                                    assign("glass.interface_transmittance", "0.5"), assign("environment.radiance", "1"),
-                                   assign("orb.shift_mm", "0"), assign("image.orb_share", orb_share)},
+                                   assign("orb.shift_mm", "0"), assign("image.orb_share", limit_orb_share)},
                                   fixed));
     const OrbInScene orb = orb_of(e.scene);
     const double radius = orb.optics.outer_mm, wall = orb.optics.wall_mm, eye = e.scene.camera.eye_mm.z;
-    const double rim_share = 0.5 * orb_share * wall / radius; // of the film's width
+    const double rim_share = 0.5 * limit_orb_share * wall / radius; // of the film's width
     Camera &camera = e.scene.camera;
     camera.width_px = camera.height_px = 2 * static_cast<int>(std::clamp(rim_px / rim_share, 160.0, 1e8) / 2);
     const double middle = column_of(camera, orb, radius - wall / 2, camera.height_px / 2.0);
     const int width =
-        std::min(2 * static_cast<int>(std::ceil(camera.width_px * rim_share / 2) + margin_px), camera.width_px);
+        std::min(2 * static_cast<int>(std::ceil(camera.width_px * rim_share / 2) + limit_margin_px), camera.width_px);
     camera.crop = Crop{std::clamp(static_cast<int>(middle) - width / 2, 0, camera.width_px - width),
-                       (camera.height_px - rows_px) / 2, width, rows_px};
-    const double left = column_of(camera, orb, orb.optics.inner_mm, rows_px / 2.0),
-                 right = column_of(camera, orb, radius, rows_px / 2.0);
+                       (camera.height_px - limit_rows_px) / 2, width, limit_rows_px};
+    const double left = column_of(camera, orb, orb.optics.inner_mm, limit_rows_px / 2.0),
+                 right = column_of(camera, orb, radius, limit_rows_px / 2.0);
     const bool readable = optics::rim_width(orb.optics) > wall * (1 - 1e-9) && left > 2 && right < width - 2;
     e.samples_per_pixel = 64; // coated glass does not split rays: they are cheap
-    e.surface_tolerance_mm = std::max(wall_error * wall, finest_surface * radius);
+    e.surface_tolerance_mm = std::max(wall_error * wall, limit_finest_surface * radius);
 
     const double expected = rim_arcmin(orb.optics, eye), per_mm = expected / optics::rim_width(orb.optics);
     e.predict = [=, acuity = limits.here.acuity_arcmin](const Accuracy &a) {
@@ -122,7 +123,7 @@ Experiment rim_experiment(const ClaimContext &context, const Limits &limits, con
     };
     e.measure = [=](const Image &image, const Camera &at) {
         double mean = readable ? 0 : nan;
-        const int split = static_cast<int>(std::round(column_of(at, orb, radius - wall / 2, rows_px / 2.0)));
+        const int split = static_cast<int>(std::round(column_of(at, orb, radius - wall / 2, limit_rows_px / 2.0)));
         for (int row = 0; readable && row < image.height; ++row) {
             const Borders b = plateau_borders(image, row, split, {1.0 / 16, 1.0 / 4, 1});
             const auto impact = [&](double x) {
@@ -137,7 +138,7 @@ Experiment rim_experiment(const ClaimContext &context, const Limits &limits, con
     e.draw = [=](const Image &image, const Camera &at) {
         std::vector<Mark> marks;
         for (const double b : {orb.optics.inner_mm, radius}) {
-            const double x = column_of(at, orb, b, rows_px / 2.0);
+            const double x = column_of(at, orb, b, limit_rows_px / 2.0);
             marks.push_back(
                 {Mark::Kind::line, {x, 0}, {x, static_cast<double>(image.height)}, 0, Mark::Meaning::expected, ""});
         }
@@ -179,7 +180,7 @@ std::string study_note(const ClaimContext &context, const FoldNumbers &here) {
         said, seen ? "That is not so" : "That is so", n.acuity_arcmin, jump, n.eye_mm, rim);
 }
 
-std::vector<ScopeNumber> scope(const ClaimContext &context, const ScopeSettings &settings) {
+std::vector<ScopeNumber> limit_scope(const ClaimContext &context, const ScopeSettings &settings) {
     const FoldNumbers n = fold_numbers(context, {});
     ScopeNumber of_break =
         break_scope(context, settings, "break of the fold that breaks most", {}, {most_broken_fold(n, all_folds)});
@@ -285,7 +286,7 @@ Claim claim_wall_limit() {
         add(l.by_rim_mm, !l.break_binds(), "the dark rim", "wall-limit-rim-flip");
         return flips;
     };
-    claim.scope = scope;
+    claim.scope = limit_scope;
     claim.mutant = Fault::wall_doubled;
     return claim;
 }

@@ -27,7 +27,7 @@ namespace {
 constexpr double least_separation_px = 10; ///< between the two highlights on the film
 constexpr double size_share = 0.12;        ///< a highlight's half width, of that separation
 constexpr double light_tolerance = 0.08;   ///< of a highlight's light: by Fresnel the two differ by far more
-constexpr int margin_px = 6;
+constexpr int spot_margin_px = 6;
 
 struct Spot {
     Experiment plan; ///< its scene, and its parameters
@@ -98,7 +98,7 @@ Vec3 on_surface(const OrbInScene &orb, const Ray &ray) {
 
 Vec2 film_of(const Camera &camera, const Ray &ray) { return image_of(camera, ray.origin_mm + ray.direction); }
 
-struct View {
+struct SpotView {
     Experiment experiment;
     Spot spot;
     Vec2 front_px, inner_px; ///< in the crop
@@ -107,8 +107,8 @@ struct View {
 };
 
 /// Both highlights on a film so fine that they stand apart; the source so small that they do not run together.
-View look_at(const ClaimContext &context, const std::string &name, const std::string &title, int number,
-             std::vector<Assignment> more) {
+SpotView look_at(const ClaimContext &context, const std::string &name, const std::string &title, int number,
+                 std::vector<Assignment> more) {
     const Spot plan = spot_of(context, number, more);
     const auto front = ray_to_source(plan, 0, 0), inner = ray_to_source(plan, 2, 0);
     if (!front || !inner) throw Error(Exit::bad_data, "a white spot's source is not mirrored towards the eye");
@@ -125,7 +125,7 @@ View look_at(const ClaimContext &context, const std::string &name, const std::st
     Camera &film = e.scene.camera;
     film.width_px = film.height_px = static_cast<int>(wide);
     const Vec2 a = film_of(film, *front), b = film_of(film, *inner);
-    const Vec2 low = glm::min(a, b) - Vec2(margin_px), high = glm::max(a, b) + Vec2(margin_px);
+    const Vec2 low = glm::min(a, b) - Vec2(spot_margin_px), high = glm::max(a, b) + Vec2(spot_margin_px);
     film.crop = Crop{static_cast<int>(low.x), static_cast<int>(low.y), static_cast<int>(high.x - low.x) + 1,
                      static_cast<int>(high.y - low.y) + 1};
     const Vec2 corner(film.crop->x_px, film.crop->y_px);
@@ -138,7 +138,7 @@ View look_at(const ClaimContext &context, const std::string &name, const std::st
 }
 
 /// The picture as the closed form makes it: means over pixels by a grid of rays.
-Image exact_picture(const View &v) {
+Image exact_picture(const SpotView &v) {
     constexpr int grid = 8;
     const Camera &camera = v.experiment.scene.camera;
     Image image(camera.image_width_px(), camera.image_height_px());
@@ -165,7 +165,7 @@ Names names_of(int number) {
             name("inner highlight, x"), name("inner highlight, y"), name("light of the inner highlight")};
 }
 
-std::vector<Reading> read(const View &v, const Names &names, const Image &image) {
+std::vector<Reading> read(const SpotView &v, const Names &names, const Image &image) {
     const Highlight front = highlight(image, v.front_px, v.inner_px), inner = highlight(image, v.inner_px, v.front_px);
     return {{names.front_x, front.centre_px.x * v.pixel_mm},
             {names.front_y, front.centre_px.y * v.pixel_mm},
@@ -175,7 +175,7 @@ std::vector<Reading> read(const View &v, const Names &names, const Image &image)
             {names.inner_light, inner.light}};
 }
 
-void draw_highlights(View &v) {
+void draw_highlights(SpotView &v) {
     const Highlight expected = highlight(exact_picture(v), v.front_px, v.inner_px);
     v.experiment.draw = [v, expected](const Image &image, const Camera &camera) {
         const auto cross = [](Vec2 at, Mark::Meaning meaning, std::string label) {
@@ -189,14 +189,15 @@ void draw_highlights(View &v) {
 }
 
 /// On the orb, from the painted point to the centroid of the front highlight.
-double distance_from_spot_mm(const View &v, const Image &image, const Camera &camera) {
+double distance_from_spot_mm(const SpotView &v, const Image &image, const Camera &camera) {
     const Vec2 at = highlight(image, v.front_px, v.inner_px).centre_px;
     return glm::length(on_surface(v.spot.orb, camera_ray(camera, at)) - v.painted_mm);
 }
 
 Experiment spot_experiment(const ClaimContext &context, int number) {
-    View v = look_at(context, fmt::format("spot-{}", number),
-                     fmt::format("highlights of the front and of the inner surface at spot {}", number), number, {});
+    SpotView v =
+        look_at(context, fmt::format("spot-{}", number),
+                fmt::format("highlights of the front and of the inner surface at spot {}", number), number, {});
     // The conclusion itself: a source out of its mirror direction makes it fail.
     const std::string on_spot = fmt::format("spot {}: distance of the front highlight from the painted spot", number);
     const double least = v.spot.parameters.number("criterion.spot_mm");
@@ -234,7 +235,7 @@ double displacement_mm(const ClaimContext &context, int number, double offset_de
                  : std::numeric_limits<double>::quiet_NaN();
 }
 
-std::optional<FlipPoint> flip_of(const ClaimContext &context) {
+std::optional<FlipPoint> spot_flip_of(const ClaimContext &context) {
     const Spot s = spot_of(context, 1, {});
     const double least = s.parameters.number("criterion.spot_mm");
     const auto value = root_between([&](double offset) { return displacement_mm(context, 1, offset) - least; }, 0, 30);
@@ -250,9 +251,9 @@ std::optional<FlipPoint> flip_of(const ClaimContext &context) {
 }
 
 Experiment flip_experiment(const ClaimContext &context, const BracketSide &side, double least) {
-    View v = look_at(context, fmt::format("spot-flip-{}", side.label),
-                     fmt::format("source 1 turned just {} the flip point", side.label), 1,
-                     {assign("source.offset_deg", side.value)});
+    SpotView v = look_at(context, fmt::format("spot-flip-{}", side.label),
+                         fmt::format("source 1 turned just {} the flip point", side.label), 1,
+                         {assign("source.offset_deg", side.value)});
     v.experiment.predict = [=](const Accuracy &) {
         return std::vector<Expected>{{"distance of the front highlight from the painted spot",
                                       "mm",
@@ -323,10 +324,10 @@ EffectBounds highlight_bounds(const Spot &spot, const ScopeSettings &settings, d
             .pupil = by_pupil(settings, [&](Vec2 aside) { return number(from_beside(spot, aside), {}); })};
 }
 
-std::vector<ScopeNumber> scope(const ClaimContext &context, const ScopeSettings &settings) {
+std::vector<ScopeNumber> spot_scope(const ClaimContext &context, const ScopeSettings &settings) {
     std::vector<ScopeNumber> numbers;
     for (int number = 1; number <= spot_count; ++number) {
-        const View v = look_at(context, "", "", number, {});
+        const SpotView v = look_at(context, "", "", number, {});
         const Spot &spot = v.spot;
         const double least = spot.parameters.number("criterion.spot_mm");
         const double source_mm = 2 * spot.parameters.number("source.distance_mm") *
@@ -369,7 +370,7 @@ Claim claim_white_spots() {
     claim.experiments = [](const ClaimContext &context) {
         std::vector<Experiment> all;
         for (int number = 1; number <= spot_count; ++number) all.push_back(spot_experiment(context, number));
-        if (const auto flip = flip_of(context)) {
+        if (const auto flip = spot_flip_of(context)) {
             const double least = spot_of(context, 1, {}).parameters.number("criterion.spot_mm");
             for (const BracketSide &side : bracket_of(flip->value))
                 all.push_back(flip_experiment(context, side, least));
@@ -413,10 +414,10 @@ Claim claim_white_spots() {
         return notes;
     };
     claim.flips = [](const ClaimContext &context) {
-        const auto flip = flip_of(context);
+        const auto flip = spot_flip_of(context);
         return flip ? std::vector{*flip} : std::vector<FlipPoint>{};
     };
-    claim.scope = scope;
+    claim.scope = spot_scope;
     claim.mutant = Fault::camera_one_pixel;
     return claim;
 }

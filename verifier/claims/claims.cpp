@@ -12,11 +12,14 @@ namespace threefold {
 
 std::vector<Claim> built_in_claims() {
     return {
-        claim_calibration(), // must stay first: a renderer that fails it has no vote in the others
-        claim_energy(),      claim_solid_vs_hollow(), claim_rim_reads_wall(), claim_soft_light(),
-        claim_three_lines(), claim_folds(),           claim_wall_limit(),     claim_shift(),
-        claim_salvator(),    claim_setup(),           claim_hand_contact(),   claim_palm(),
-        claim_tint(),        claim_calcite(),         claim_dark_layer(),     claim_white_spots(),
+        // What a person wants to know first stands first; calibration before all, for a renderer that fails it counts
+        // in
+        // no other claim; whole pictures, which take longest, last.
+        claim_calibration(),  claim_solid_vs_hollow(), claim_palm(),           claim_folds(),
+        claim_three_lines(),  claim_wall_limit(),      claim_rim_reads_wall(), claim_shift(),
+        claim_hand_contact(), claim_calcite(),         claim_dark_layer(),     claim_tint(),
+        claim_soft_light(),   claim_white_spots(),     claim_energy(),         claim_salvator(),
+        claim_setup(),
     };
 }
 

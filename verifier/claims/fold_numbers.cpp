@@ -17,7 +17,7 @@ namespace threefold {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double robe_share = 4; ///< half width of the robe over the orb's image on it: bent rays still meet it
 constexpr int circles = 16;      ///< of the ring inside; always as many, so that closed form and picture mean the same
 constexpr double bracket_radius_px = 700;
@@ -98,7 +98,7 @@ FoldNumbers fold_numbers(const ClaimContext &context, const std::vector<Assignme
 double greatest_jump_mm(const FoldNumbers &numbers, const std::vector<std::size_t> &folds) {
     double greatest = 0;
     for (const std::size_t k : folds) {
-        if (!numbers.jump_mm[k]) return nan;
+        if (!numbers.jump_mm[k]) return no_number;
         greatest = std::max(greatest, std::abs(*numbers.jump_mm[k]));
     }
     return greatest;

@@ -16,8 +16,9 @@ namespace threefold {
 
 namespace {
 
-constexpr double search_rad = 1.4; ///< to either side: on a circle a straight line is met once within a right angle
-constexpr int strips = 192;        ///< of a soft line's width, for its centre of darkness
+constexpr double line_search_rad =
+    1.4;                         ///< to either side: on a circle a straight line is met once within a right angle
+constexpr int line_strips = 192; ///< of a soft line's width, for its centre of darkness
 
 std::optional<Vec3> landing_of(const LinesView &view, const Ray &ray) {
     if (impact_parameter(ray, view.orb.centre_mm) >= view.orb.optics.outer_mm)
@@ -90,24 +91,25 @@ std::optional<double> azimuth_of(const LinesView &view, const Camera &camera, co
             if (!landing) return std::numeric_limits<double>::quiet_NaN();
             return distance_from(view, line, *landing) - off_centre_mm;
         },
-        view.circles.azimuth_rad - search_rad, view.circles.azimuth_rad + search_rad);
+        view.circles.azimuth_rad - line_search_rad, view.circles.azimuth_rad + line_search_rad);
 }
 
 std::optional<double> predicted_place(const LinesView &view, const Camera &camera, const SoftLine &line,
                                       double impact_mm) {
-    std::array<double, strips + 1> places{};
+    std::array<double, line_strips + 1> places{};
     // As far as a dip is measured to reach.
     const double reach = soft_reach * line.half_width_mm * 2 / std::numbers::pi * std::acos(std::sqrt(dip_ends));
-    for (int k = 0; k <= strips; ++k) {
-        const auto azimuth = azimuth_of(view, camera, line, impact_mm, reach * (2.0 * k / strips - 1));
+    for (int k = 0; k <= line_strips; ++k) {
+        const auto azimuth = azimuth_of(view, camera, line, impact_mm, reach * (2.0 * k / line_strips - 1));
         if (!azimuth) return std::nullopt;
         places[static_cast<std::size_t>(k)] =
             straight_place(view.scale, *ray_past(camera, view.orb.centre_mm, impact_mm, *azimuth));
     }
     double sum = 0, first_moment = 0;
-    for (int k = 0; k < strips; ++k) {
+    for (int k = 0; k < line_strips; ++k) {
         const double from = places[static_cast<std::size_t>(k)], to = places[static_cast<std::size_t>(k) + 1];
-        const double weight = (to - from) * soft_darkness(reach * ((2.0 * k + 1) / strips - 1), line.half_width_mm);
+        const double weight =
+            (to - from) * soft_darkness(reach * ((2.0 * k + 1) / line_strips - 1), line.half_width_mm);
         sum += weight;
         first_moment += weight * (from + to) / 2;
     }

@@ -13,8 +13,6 @@ namespace threefold {
 
 namespace {
 
-double grey(Rgb c) { return (c.r + c.g + c.b) / 3; }
-
 double radiance_of(const Quad &quad, Vec3 point_mm) {
     const Vec2 uv = coordinates_on(quad, point_mm);
     return std::visit(overloaded{

@@ -56,8 +56,6 @@ bool on_card(const Quad &card, Vec3 point_mm, double margin_mm) {
 
 namespace {
 
-double grey(Rgb c) { return (c.r + c.g + c.b) / 3; }
-
 double card_radiance(const Quad &card, Vec3 point_mm, double elsewhere) {
     if (!on_card(card, point_mm)) return elsewhere;
     const Vec2 uv = coordinates_on(card, point_mm);

@@ -19,8 +19,6 @@ namespace threefold {
 
 namespace {
 
-double grey(Rgb c) { return (c.r + c.g + c.b) / 3; }
-
 /// What is seen first in each pixel of a small picture.
 class Canvas {
 public:

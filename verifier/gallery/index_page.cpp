@@ -15,8 +15,6 @@ namespace {
 
 using namespace report;
 
-std::string plain(std::string_view text) { return html_text(one_line(text)); }
-
 std::string anchor(const GalleryFigure &figure) { return "figure-" + slug(figure.number); }
 
 void add_picture(Out &out, const GalleryFigure &figure, const GalleryPicture &picture) {

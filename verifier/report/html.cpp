@@ -23,8 +23,6 @@ using namespace report;
 /// With more judgements than this, what holds is folded away.
 constexpr std::size_t most_open = 4;
 
-std::string plain(std::string_view text) { return html_text(one_line(text)); }
-
 void add_head(Out &out, const RunResult &result) {
     fmt::format_to(
         std::back_inserter(out),
@@ -32,9 +30,10 @@ void add_head(Out &out, const RunResult &result) {
         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
         "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src "
         "'unsafe-inline'; script-src 'unsafe-inline'; base-uri 'none'; form-action 'none'\">\n"
-        "<meta name=\"color-scheme\" content=\"light dark\">\n<title>Threefold: {}</title>\n<style>\n{}</style>\n"
+        "<meta name=\"color-scheme\" content=\"light dark\">\n{}<title>Threefold: {}</title>\n<style>\n{}</style>\n"
         "</head>\n<body>\n",
-        plain(headline(result)), page_style);
+        is_running(result) ? "<meta http-equiv=\"refresh\" content=\"15\">\n" : "", plain(headline(result)),
+        page_style);
 }
 
 void add_verdict(Out &out, const RunResult &result) {

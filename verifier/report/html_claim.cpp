@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The numbers behind a claim: rows, tiles, scenes.
+#include <algorithm>
 #include <iterator>
 #include <vector>
 
@@ -19,8 +20,6 @@ std::string cell(std::string_view label, std::string_view kind, const std::strin
     return fmt::format(R"(<td data-label="{}" class="{}"{}>{}</td>)", label, kind,
                        rows > 1 ? fmt::format(" rowspan=\"{}\"", rows) : "", content);
 }
-
-std::string plain(std::string_view text) { return html_text(one_line(text)); }
 
 /// "0.004 = 0.002 sampling + 0.001 tessellation + ..." and, opened, the reason of each.
 void add_budget(Out &out, double tolerance, const std::vector<BudgetItem> &budget, const std::string &unit,

@@ -17,8 +17,6 @@ namespace threefold::report {
 
 namespace {
 
-std::string plain(std::string_view text) { return html_text(one_line(text)); }
-
 /// "at 1.2006 and 1.2200 ✓ holds"; empty where nothing was rendered beside it.
 std::string bracket_html(const ClaimResult &claim, const FlipPoint &flip) {
     const auto verdict = bracket_verdict(claim, flip);

@@ -14,8 +14,6 @@ namespace threefold::report {
 
 namespace {
 
-std::string plain(std::string_view text) { return html_text(one_line(text)); }
-
 std::string heading_text(const ClaimResult &claim) {
     return plain(claim.statement.empty() ? claim.name : claim.statement);
 }

@@ -13,8 +13,6 @@ namespace threefold::report {
 
 namespace {
 
-std::string plain(std::string_view text) { return html_text(one_line(text)); }
-
 void add_settings(Out &out, const RunResult &result) {
     if (!result.command.empty())
         fmt::format_to(std::back_inserter(out), "<h3>Command</h3>\n<pre><code>{}</code></pre>\n",

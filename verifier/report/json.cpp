@@ -8,8 +8,11 @@
 #include <string_view>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 #include "verifier/report/json_value.h"
 #include "verifier/report/text.h"
+#include "verifier/report/time_table.h"
 
 namespace threefold {
 
@@ -132,6 +135,8 @@ Json from_tiles(const TileComparison &t) {
         {"failing", t.failing},
         {"open", t.open},
         {"needed_share", real(t.needed_share)},
+        {"replicates", t.replicates},
+        {"level", real(t.level)},
         {"verdict", to_string(t.verdict)},
         {"replicates_to_decide", or_null(t.replicates_to_decide)},
     };
@@ -198,6 +203,16 @@ Json from_render(const RenderRecord &r) {
     };
 }
 
+Json from_times(const ExperimentTime &t) {
+    Json renderers = Json::object();
+    for (const auto &[name, time] : t.renderers)
+        renderers[valid_utf8(name)] = {{"cpu_seconds", real(time.cpu_seconds)},
+                                       {"own_cpu_seconds", real(time.own_cpu_seconds)},
+                                       {"replicates", time.replicates},
+                                       {"samples_per_pixel", time.samples_per_pixel}};
+    return {{"experiment", text(t.experiment)}, {"preset", text(t.preset)}, {"renderers", std::move(renderers)}};
+}
+
 } // namespace
 
 Json to_json(const RunResult &result) {
@@ -221,7 +236,8 @@ Json to_json(const RunResult &result) {
           {"renderer_seconds", real(result.renderer_seconds)},
           {"tracer_seconds", real(result.tracer_seconds)},
           {"overhead_seconds", real(overhead)},
-          {"overhead_share", real(overhead / result.seconds)}}},
+          {"overhead_share", real(overhead / result.seconds)},
+          {"by_experiment", list_of(times_of(result), from_times)}}},
         {"witnesses", list_of(result.witnesses, from_witness)},
         {"claims", list_of(result.claims, from_claim)},
         {"renders", list_of(result.renders, from_render)},

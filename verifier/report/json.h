@@ -2,7 +2,7 @@
 // result.json: everything a run found, for scripts. docs/RESULT_SCHEMA.md describes it field by field.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "verifier/agreement/result.h"
 

@@ -110,7 +110,7 @@ void add_claim(Suite &suite, const RunResult &result, const ClaimResult &claim) 
                           claim.summary.empty() ? claim.statement : claim.summary, "");
 }
 
-void add_renderers(Suite &suite, const RunResult &result) {
+void add_renderer_suite(Suite &suite, const RunResult &result) {
     for (const WitnessRecord &witness : result.witnesses) {
         const auto test = suite.add_case(witness.name, witness.title.empty() ? witness.name : witness.title);
         set_seconds(test, witness.seconds);
@@ -138,7 +138,7 @@ std::string to_junit(const RunResult &result) {
     };
     if (!result.witnesses.empty()) {
         Suite suite = add_suite(root, result, "renderers");
-        add_renderers(suite, result);
+        add_renderer_suite(suite, result);
         close(suite);
     }
     for (const ClaimGroup &group : groups_of(result))

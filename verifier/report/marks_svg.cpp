@@ -19,7 +19,7 @@ namespace {
 
 constexpr Mark::Meaning meanings[]{Mark::Meaning::measured, Mark::Meaning::expected};
 
-std::string_view word(Mark::Meaning meaning) {
+std::string_view meaning_word(Mark::Meaning meaning) {
     switch (meaning) {
     case Mark::Meaning::expected:
         return "expected";
@@ -114,7 +114,7 @@ void add_label(std::string &out, const Mark &mark, Vec2 at, double width_px, dou
     const double x = std::clamp(100 * at.x / width_px, 0.0, 100.0), y = std::clamp(100 * at.y / height_px, 0.0, 100.0);
     const bool below = y < 8 || (y < 92 && mark.meaning == Mark::Meaning::expected);
     fmt::format_to(std::back_inserter(out), R"(<span class="{}{}{}" style="left:{:.2f}%;top:{:.2f}%">{}</span>)",
-                   word(mark.meaning), x > 55 ? " leftwards" : "", below ? " below" : "", x, y,
+                   meaning_word(mark.meaning), x > 55 ? " leftwards" : "", below ? " below" : "", x, y,
                    html_text(one_line(mark.label)));
 }
 
@@ -125,7 +125,7 @@ std::string description(const std::vector<const Mark *> &marks) {
         for (const Mark *mark : marks)
             if (mark->meaning == meaning && !mark->label.empty())
                 labels += (labels.empty() ? "" : ", ") + one_line(mark->label);
-        if (!labels.empty()) text += fmt::format("{}{}: {}.", text.empty() ? "" : " ", word(meaning), labels);
+        if (!labels.empty()) text += fmt::format("{}{}: {}.", text.empty() ? "" : " ", meaning_word(meaning), labels);
     }
     return text;
 }
@@ -153,8 +153,8 @@ std::string marks_overlay(std::span<const Mark> marks, double width_px, double h
         if (n == 0) continue;
         // Light on dark, so that it is seen on any picture.
         fmt::format_to(std::back_inserter(lines), R"(<path class="halo {0}" d="{1}"/><path class="ink {0}" d="{1}"/>)",
-                       word(meaning), path);
-        title += fmt::format("{}{} {}", title.empty() ? "" : ", ", count(n, "mark"), word(meaning));
+                       meaning_word(meaning), path);
+        title += fmt::format("{}{} {}", title.empty() ? "" : ", ", count(n, "mark"), meaning_word(meaning));
     }
     const std::string says = description(drawable);
     return fmt::format(
@@ -188,7 +188,7 @@ std::string marks_legend(std::span<const Mark *const> marks) {
             lines && crosses ? 56
             : lines          ? 36
                              : 18,
-            word(meaning), path, word(meaning), path, word(meaning),
+            meaning_word(meaning), path, meaning_word(meaning), path, meaning_word(meaning),
             upright ? "read from the picture" : "the closed form, before rendering");
     }
     return items.empty() ? "" : R"(<ul class="legend">)" + items + "</ul>\n";

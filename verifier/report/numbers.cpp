@@ -14,7 +14,7 @@ namespace threefold::report {
 
 namespace {
 
-std::optional<std::string> word(double value) {
+std::optional<std::string> word_for(double value) {
     if (std::isnan(value)) return "not a number";
     if (std::isinf(value)) return value > 0 ? "infinite" : "-infinite";
     if (value == 0) return "0";
@@ -46,14 +46,14 @@ std::string without_negative_zero(std::string text) {
 } // namespace
 
 std::string number(double value, int digits) {
-    if (const auto w = word(value)) return *w;
+    if (const auto w = word_for(value)) return *w;
     const int exponent = exponent_of(value);
     if (exponent < -4 || exponent > 6) return scientific(value, digits - 1, true);
     return without_trailing_zeros(fmt::format("{:.{}f}", value, std::max(0, digits - 1 - exponent)));
 }
 
 std::string number_at(double value, double resolution) {
-    if (const auto w = word(value)) return *w;
+    if (const auto w = word_for(value)) return *w;
     if (!(resolution > 0) || !std::isfinite(resolution)) return number(value, 6);
     const int decimals = 1 - exponent_of(resolution), exponent = exponent_of(value);
     if (exponent + decimals < 0) return "0";

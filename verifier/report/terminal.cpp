@@ -12,6 +12,7 @@
 #include "verifier/report/flip_words.h"
 #include "verifier/report/numbers.h"
 #include "verifier/report/text.h"
+#include "verifier/report/time_table.h"
 #include "verifier/report/words.h"
 
 namespace threefold {
@@ -92,8 +93,8 @@ void add_findings(std::string &out, const RunResult &result, const ClaimResult &
         for (const std::string &note : claim.notes) out += indent + one_line(note) + "\n";
 }
 
-void add_claim(std::string &out, const RunResult &result, const ClaimGroup &group, const Painter &paint,
-               std::size_t width, int verbosity) {
+void print_claim(std::string &out, const RunResult &result, const ClaimGroup &group, const Painter &paint,
+                 std::size_t width, int verbosity) {
     const ClaimResult &claim = group.first();
     out += fmt::format("  {} {}{}  {}\n", mark(paint, group.verdict()), paint.bold(one_line(claim.name)),
                        std::string(width - claim.name.size(), ' '), one_line(claim.statement));
@@ -113,7 +114,7 @@ void add_claim(std::string &out, const RunResult &result, const ClaimGroup &grou
     }
 }
 
-void add_witness(std::string &out, const WitnessRecord &witness, const Painter &paint) {
+void print_witness(std::string &out, const WitnessRecord &witness, const Painter &paint) {
     std::string state = !witness.present      ? "missing"
                         : !witness.calibrated ? "not calibrated"
                         : *witness.calibrated ? "calibrated"
@@ -131,6 +132,12 @@ void add_witness(std::string &out, const WitnessRecord &witness, const Painter &
 
 } // namespace
 
+std::string to_line(const ClaimResult &claim, bool colour, bool with_preset) {
+    const Painter paint{colour};
+    return fmt::format("{} {}{}  {}", mark(paint, claim.verdict), paint.bold(one_line(claim.name)),
+                       with_preset ? fmt::format(" ({})", one_line(claim.preset)) : "", one_line(claim.statement));
+}
+
 std::string to_text(const RunResult &result, bool colour, int verbosity) {
     const Painter paint{colour};
     std::string out =
@@ -138,12 +145,13 @@ std::string to_text(const RunResult &result, bool colour, int verbosity) {
     if (!result.summary.empty()) out += one_line(result.summary) + "\n";
     if (verbosity >= 0 && !result.witnesses.empty()) {
         out += "\n";
-        for (const WitnessRecord &witness : result.witnesses) add_witness(out, witness, paint);
+        for (const WitnessRecord &witness : result.witnesses) print_witness(out, witness, paint);
     }
     if (!result.claims.empty()) out += "\n";
     std::size_t width = 0;
     for (const ClaimResult &claim : result.claims) width = std::max(width, claim.name.size());
-    for (const ClaimGroup &group : groups_of(result)) add_claim(out, result, group, paint, width, verbosity);
+    for (const ClaimGroup &group : groups_of(result)) print_claim(out, result, group, paint, width, verbosity);
+    if (verbosity > 0 && !result.renders.empty()) out += "\n" + time_table(result);
     if (verbosity >= 0 && result.seconds > 0)
         out += paint.faint(fmt::format("\n{} in all, {} of it in renderers.", duration(result.seconds),
                                        duration(result.renderer_seconds))) +

@@ -14,4 +14,7 @@ namespace threefold {
 /// without `colour` there is no escape code, whatever names hold.
 std::string to_text(const RunResult &result, bool colour, int verbosity);
 
+/// One claim's verdict as a line without its end, for while the run goes on. `with_preset` names the preset.
+std::string to_line(const ClaimResult &claim, bool colour, bool with_preset);
+
 } // namespace threefold

@@ -122,4 +122,6 @@ std::string slug(std::string_view text) {
     return out;
 }
 
+std::string plain(std::string_view text) { return html_text(one_line(text)); }
+
 } // namespace threefold::report

@@ -16,6 +16,8 @@ std::string printable(std::string_view text);
 std::string one_line(std::string_view text);
 /// Printable and escaped, for HTML text and for attributes in double or single quotes.
 std::string html_text(std::string_view text);
+/// The same on one line.
+std::string plain(std::string_view text);
 /// RFC 4648, section 4.
 std::string base64(std::string_view bytes);
 /// Lower-case letters, digits and hyphens only.

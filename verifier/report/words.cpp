@@ -52,6 +52,9 @@ std::string expectation(const Row &row, double resolution) {
 } // namespace
 
 std::string headline(const RunResult &result) {
+    if (is_running(result))
+        return fmt::format("Running: {} of {} {} judged", result.claims.size(), result.claims_planned,
+                           result.preset == "both" ? "claims and presets" : "claims");
     const std::vector<ClaimGroup> groups = groups_of(result);
     const auto with = [&](Verdict v) { return std::ranges::count(groups, v, &ClaimGroup::verdict); };
     const auto claims = std::ssize(groups);
@@ -72,6 +75,8 @@ std::string headline(const RunResult &result) {
     if (undecided) text += fmt::format(", {} {} undecided", undecided, undecided == 1 ? "is" : "are");
     return text;
 }
+
+bool is_running(const RunResult &result) { return result.claims.size() < result.claims_planned; }
 
 std::string_view symbol(Verdict verdict) {
     switch (verdict) {

@@ -10,7 +10,10 @@
 
 namespace threefold::report {
 
+/// Some claims are not judged yet.
+bool is_running(const RunResult &result);
 /// "All 4 claims hold under both presets", "1 of 4 claims fails, 1 is undecided". A claim counts once.
+/// "Running: 5 of 17 claims judged".
 std::string headline(const RunResult &result);
 /// A mark that goes with the word and never stands for it: a tick, a cross, a question mark.
 std::string_view symbol(Verdict verdict);

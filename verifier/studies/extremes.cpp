@@ -47,9 +47,9 @@ std::string reason_of(const Error &error) {
     return error.hint().empty() ? error.what() : fmt::format("{} ({})", error.what(), error.hint());
 }
 
-class Study {
+class ExtremesStudy {
 public:
-    explicit Study(const ExtremesRequest &request) : request_(request), sweeps_(asked_sweeps(request)) {
+    explicit ExtremesStudy(const ExtremesRequest &request) : request_(request), sweeps_(asked_sweeps(request)) {
         for (const Witness &w : request.witnesses) {
             if (!w.is_tracer()) {
                 columns_.push_back({&w, {}, 0, 0});
@@ -192,6 +192,6 @@ std::vector<std::string> extreme_sweep_names() {
     return names;
 }
 
-ExtremesResult study_extremes(const ExtremesRequest &request) { return Study(request)(); }
+ExtremesResult study_extremes(const ExtremesRequest &request) { return ExtremesStudy(request)(); }
 
 } // namespace threefold

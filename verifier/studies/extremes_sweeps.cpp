@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verifier/studies/extremes_sweeps.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -67,7 +68,7 @@ Scene scaled(Scene s, double by) {
     return s;
 }
 
-Scene moved(Scene s, Vec3 by_mm) {
+Scene moved_by(Scene s, Vec3 by_mm) {
     for (Object &object : s.objects)
         std::visit(overloaded{[by_mm](GlassBall &b) { b.centre_mm += by_mm; },
                               [by_mm](GlassShell &b) { b.centre_mm += by_mm; },
@@ -186,7 +187,7 @@ std::vector<ExtremeSweep> place_sweeps() {
                         [](double by) { return scaled(before_card(shell(wall)), by); }));
     all.push_back(
         sweep("offset", "The whole scene far from the origin", "offset / R", join({{0, true}}, decades(0, 8, always)),
-              [](double by) { return moved(before_card(shell(wall)), by * radius_mm * Vec3(0.6, 0.64, -0.48)); }));
+              [](double by) { return moved_by(before_card(shell(wall)), by * radius_mm * Vec3(0.6, 0.64, -0.48)); }));
     return all;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <ctime>
 #include <set>
+#include <system_error>
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -45,9 +46,10 @@ std::vector<std::string> failing(const RunResult &result) {
     return names;
 }
 
-class Study {
+class PowerStudy {
 public:
-    explicit Study(const PowerRequest &request) : request_(request), faulty_(find_faulty(request)), pictures_(request) {
+    explicit PowerStudy(const PowerRequest &request)
+        : request_(request), faulty_(find_faulty(request)), pictures_(request) {
         // The claims' small pictures, always: a fault must be caught on them.
         const ClaimContext small{request.scenes, Preset::text, {}, true};
         for (const Claim &claim : request.claims) claims_.push_back(as_studied(claim, small, request.quick));
@@ -210,6 +212,6 @@ Verdict PowerResult::verdict() const {
     return all_caught && false_alarms.ours <= most_false_alarms * false_alarms.runs ? Verdict::holds : Verdict::fails;
 }
 
-PowerResult study_power(const PowerRequest &request) { return Study(request)(); }
+PowerResult study_power(const PowerRequest &request) { return PowerStudy(request)(); }
 
 } // namespace threefold

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "scenes/error.h"
+#include "scenes/texture.h"
 #include "verifier/optics/concentric.h"
 #include "verifier/tracer/tracer.h"
 
@@ -75,8 +76,6 @@ Image traced(const Scene &scene, int threads) {
     job.threads = threads;
     return trace(job).images.front();
 }
-
-double grey(Rgb c) { return (c.r + c.g + c.b) / 3; }
 
 double change_between(const Image &a, const Image &b, int tile_px, double needed_share) {
     std::vector<double> changes;

@@ -66,9 +66,9 @@ struct Quest {
     bool done = false;
 };
 
-class Study {
+class TradeStudy {
 public:
-    explicit Study(const TradeRequest &request) : request_(request) {}
+    explicit TradeStudy(const TradeRequest &request) : request_(request) {}
 
     TradeResult run() {
         const auto start = std::chrono::steady_clock::now();
@@ -440,6 +440,6 @@ const std::string &TradeResult::title(const std::string &witness) const {
     return found == titles.end() ? witness : found->second;
 }
 
-TradeResult study_trade(const TradeRequest &request) { return Study(request).run(); }
+TradeResult study_trade(const TradeRequest &request) { return TradeStudy(request).run(); }
 
 } // namespace threefold

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include "verifier/report/json_value.h"
 #include "verifier/report/numbers.h"

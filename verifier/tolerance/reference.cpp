@@ -125,10 +125,10 @@ Image single_path_picture(const Scene &scene, int samples, std::uint64_t seed) {
     return image;
 }
 
-constexpr int pilot_samples = 16, most_samples = 1 << 16;
+constexpr int first_samples = 16, most_samples = 1 << 16;
 constexpr std::uint64_t most_refinements = 2; ///< the first aims by the pilot, the second mends what that missed
 
-std::vector<std::uint64_t> seeds_of(const ReferenceRequest &request, std::uint64_t stage) {
+std::vector<std::uint64_t> reference_seeds_of(const ReferenceRequest &request, std::uint64_t stage) {
     std::vector<std::uint64_t> seeds;
     for (std::uint64_t k = 0; k < static_cast<std::uint64_t>(request.pictures); ++k)
         seeds.push_back(tracer::mix(request.seed ^ tracer::mix(0x7ef0000u + 16 * stage + k)));
@@ -167,9 +167,9 @@ ReferencePicture make_reference(const Scene &scene, const ReferenceRequest &requ
     }
     if (is_single_path(scene)) {
         ReferencePicture r;
-        for (int n = pilot_samples;;) {
+        for (int n = first_samples;;) {
             r = to_reference(*closed_form_pictures(scene, n, request.pictures, tracer::mix(request.seed ^ 0xc105edu)));
-            const auto more = n == pilot_samples ? samples_for(r.error, n, request, 0, 0) : std::nullopt;
+            const auto more = n == first_samples ? samples_for(r.error, n, request, 0, 0) : std::nullopt;
             r.kind = fmt::format("closed form of the single path, {} points a pixel", request.pictures * n);
             if (!more) return r;
             n = std::min(*more, 4096);
@@ -180,12 +180,12 @@ ReferencePicture make_reference(const Scene &scene, const ReferenceRequest &requ
     job.cut_weight = 1e-6;
     job.threads = request.threads;
     double cpu = 0;
-    std::optional<int> more = pilot_samples;
+    std::optional<int> more = first_samples;
     ReferencePicture r;
     for (std::uint64_t stage = 0; more; ++stage) {
         job.samples_per_pixel = *more;
         job.replicates.clear();
-        for (const std::uint64_t seed : seeds_of(request, stage)) job.replicates.push_back({seed, {0, 0}});
+        for (const std::uint64_t seed : reference_seeds_of(request, stage)) job.replicates.push_back({seed, {0, 0}});
         const TracerOutcome outcome = trace(job, {}, request.on_progress);
         cpu += outcome.cpu_seconds;
         r = to_reference(outcome.images);

@@ -9,6 +9,9 @@
 
 #include <array>
 #include <limits>
+#include <mutex>
+#include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -22,16 +25,6 @@ namespace {
 std::array<Vec3, 4> corners(const Quad &q) {
     return {q.centre_mm - q.half_u_mm - q.half_v_mm, q.centre_mm + q.half_u_mm - q.half_v_mm,
             q.centre_mm + q.half_u_mm + q.half_v_mm, q.centre_mm - q.half_u_mm + q.half_v_mm};
-}
-
-float *new_vertices(RTCGeometry geometry, std::size_t count) {
-    return static_cast<float *>(
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), count));
-}
-
-unsigned *new_indices(RTCGeometry geometry, RTCFormat format, std::size_t each, std::size_t count) {
-    return static_cast<unsigned *>(
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, format, each * sizeof(unsigned), count));
 }
 
 void put(float *to, Vec3 v) {
@@ -106,6 +99,51 @@ void put(const RayPacket &rays, Vec3 origin, RTCRay8 &r) {
     }
 }
 
+using Geometry = std::unique_ptr<RTCGeometryTy, decltype(&rtcReleaseGeometry)>;
+
+const char *meaning(RTCError code) {
+    switch (code) {
+    case RTC_ERROR_INVALID_ARGUMENT:
+        return "invalid argument";
+    case RTC_ERROR_INVALID_OPERATION:
+        return "invalid operation";
+    case RTC_ERROR_OUT_OF_MEMORY:
+        return "out of memory";
+    case RTC_ERROR_UNSUPPORTED_CPU:
+        return "unsupported processor";
+    case RTC_ERROR_CANCELLED:
+        return "cancelled";
+    default:
+        return "unknown error"; // a later Embree has more
+    }
+}
+
+/// What Embree reports, from any of its threads; it throws nothing itself.
+class EmbreeErrors {
+public:
+    void record(RTCError code, const char *text) {
+        const std::lock_guard lock(mutex_);
+        if (code_ != RTC_ERROR_NONE) return; // others follow from the first
+        code_ = code;
+        text_ = text ? text : "";
+    }
+    /// Throws what was reported since the last call.
+    void check() {
+        const std::lock_guard lock(mutex_);
+        if (code_ == RTC_ERROR_NONE) return;
+        const RTCError code = std::exchange(code_, RTC_ERROR_NONE);
+        if (code == RTC_ERROR_OUT_OF_MEMORY)
+            throw Error(Exit::bad_data, "not enough memory for the scene's surfaces in Embree",
+                        "a mesh with fewer triangles takes less");
+        throw Error(Exit::internal, fmt::format("Embree could not build the scene: {} ({})", meaning(code), text_));
+    }
+
+private:
+    std::mutex mutex_;
+    RTCError code_ = RTC_ERROR_NONE;
+    std::string text_;
+};
+
 struct alignas(32) Valid {
     int lane[lanes];
     explicit Valid(std::uint32_t active) {
@@ -117,26 +155,55 @@ struct alignas(32) Valid {
 
 struct EmbreeWorld::State {
     Vec3 origin;
-    RTCDevice device;
-    RTCScene scene = nullptr;
+    EmbreeErrors errors; // outlives the device, which writes to it
+    std::unique_ptr<RTCDeviceTy, decltype(&rtcReleaseDevice)> device{nullptr, &rtcReleaseDevice};
+    std::unique_ptr<RTCSceneTy, decltype(&rtcReleaseScene)> scene{nullptr, &rtcReleaseScene};
 
-    explicit State(Vec3 origin_mm) : origin(origin_mm), device(rtcNewDevice(nullptr)) {
-        if (!device) throw Error(Exit::internal, "Embree could not be started");
-        scene = rtcNewScene(device);
-        rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST); // a ray along an edge shared by two triangles hits one of them
-    }
-    ~State() {
-        rtcReleaseScene(scene);
-        rtcReleaseDevice(device);
+    explicit State(Vec3 origin_mm) : origin(origin_mm) {
+        device.reset(rtcNewDevice(nullptr));
+        if (!device) errors.record(rtcGetDeviceError(nullptr), "no device");
+        errors.check();
+        rtcSetDeviceErrorFunction(
+            device.get(),
+            [](void *errors, RTCError code, const char *text) {
+                static_cast<EmbreeErrors *>(errors)->record(code, text);
+            },
+            &errors);
+        scene.reset(rtcNewScene(device.get()));
+        errors.check();
+        // A ray along an edge shared by two triangles hits one of them.
+        rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
     }
     State(const State &) = delete;
     State &operator=(const State &) = delete;
 
-    void add(std::size_t object, RTCGeometry geometry) {
-        rtcSetGeometryOccludedFilterFunction(geometry, pass_over_left);
-        rtcCommitGeometry(geometry);
-        rtcAttachGeometryByID(scene, geometry, static_cast<unsigned>(object));
-        rtcReleaseGeometry(geometry);
+    Geometry new_geometry(RTCGeometryType type) {
+        Geometry geometry{rtcNewGeometry(device.get(), type), &rtcReleaseGeometry};
+        errors.check();
+        return geometry;
+    }
+
+    /// Null only for nothing.
+    template <class Number>
+    Number *new_buffer(const Geometry &geometry, RTCBufferType type, RTCFormat format, std::size_t each,
+                       std::size_t count) {
+        void *buffer = rtcSetNewGeometryBuffer(geometry.get(), type, 0, format, each * sizeof(Number), count);
+        if (!buffer && count > 0) errors.record(RTC_ERROR_OUT_OF_MEMORY, "no buffer");
+        errors.check();
+        return static_cast<Number *>(buffer);
+    }
+    float *new_vertices(const Geometry &geometry, std::size_t count) {
+        return new_buffer<float>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, 3, count);
+    }
+    unsigned *new_indices(const Geometry &geometry, RTCFormat format, std::size_t each, std::size_t count) {
+        return new_buffer<unsigned>(geometry, RTC_BUFFER_TYPE_INDEX, format, each, count);
+    }
+
+    void add(std::size_t object, const Geometry &geometry) {
+        rtcSetGeometryOccludedFilterFunction(geometry.get(), pass_over_left);
+        rtcCommitGeometry(geometry.get());
+        rtcAttachGeometryByID(scene.get(), geometry.get(), static_cast<unsigned>(object));
+        errors.check();
     }
 
     RTCRay ray_of(const Ray &ray) const {
@@ -158,9 +225,9 @@ EmbreeWorld::EmbreeWorld(Vec3 origin_mm) : state_(std::make_unique<State>(origin
 EmbreeWorld::~EmbreeWorld() = default;
 
 void EmbreeWorld::add(std::size_t object, const Quad &quad) {
-    RTCGeometry geometry = rtcNewGeometry(state_->device, RTC_GEOMETRY_TYPE_QUAD);
-    float *vertices = new_vertices(geometry, 4);
-    unsigned *indices = new_indices(geometry, RTC_FORMAT_UINT4, 4, 1);
+    const Geometry geometry = state_->new_geometry(RTC_GEOMETRY_TYPE_QUAD);
+    float *vertices = state_->new_vertices(geometry, 4);
+    unsigned *indices = state_->new_indices(geometry, RTC_FORMAT_UINT4, 4, 1);
     const auto c = corners(quad);
     for (unsigned k = 0; k < 4; ++k) {
         put(vertices + 3 * k, c[k] - state_->origin);
@@ -170,21 +237,19 @@ void EmbreeWorld::add(std::size_t object, const Quad &quad) {
 }
 
 void EmbreeWorld::add(std::size_t object, const Mesh &mesh) {
-    RTCGeometry geometry = rtcNewGeometry(state_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    float *vertices = new_vertices(geometry, mesh.vertices_mm.size());
+    const Geometry geometry = state_->new_geometry(RTC_GEOMETRY_TYPE_TRIANGLE);
+    float *vertices = state_->new_vertices(geometry, mesh.vertices_mm.size());
     for (std::size_t k = 0; k < mesh.vertices_mm.size(); ++k)
         put(vertices + 3 * k, mesh.vertices_mm[k] - state_->origin);
-    unsigned *indices = new_indices(geometry, RTC_FORMAT_UINT3, 3, mesh.triangles.size());
+    unsigned *indices = state_->new_indices(geometry, RTC_FORMAT_UINT3, 3, mesh.triangles.size());
     for (std::size_t k = 0; k < mesh.triangles.size(); ++k)
         for (int i = 0; i < 3; ++i) indices[3 * k + static_cast<std::size_t>(i)] = mesh.triangles[k][i];
     state_->add(object, geometry);
 }
 
 void EmbreeWorld::commit() {
-    rtcCommitScene(state_->scene);
-    if (const RTCError error = rtcGetDeviceError(state_->device); error != RTC_ERROR_NONE)
-        throw Error(Exit::internal,
-                    fmt::format("Embree could not build the scene (error {})", static_cast<int>(error)));
+    rtcCommitScene(state_->scene.get());
+    state_->errors.check();
 }
 
 Candidate EmbreeWorld::intersect(const Ray &ray) const {
@@ -194,9 +259,9 @@ Candidate EmbreeWorld::intersect(const Ray &ray) const {
     Query query;
 #if RTC_VERSION_MAJOR >= 4
     RTCIntersectArguments arguments = intersecting(query);
-    rtcIntersect1(state_->scene, &r, &arguments);
+    rtcIntersect1(state_->scene.get(), &r, &arguments);
 #else
-    rtcIntersect1(state_->scene, &query, &r);
+    rtcIntersect1(state_->scene.get(), &query, &r);
 #endif
     if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
     return {r.hit.geomID, r.hit.primID, r.ray.tfar, r.hit.u, r.hit.v};
@@ -208,9 +273,9 @@ bool EmbreeWorld::blocks(const Ray &ray, Left left) const {
     query.left = &left;
 #if RTC_VERSION_MAJOR >= 4
     RTCOccludedArguments arguments = occluding(query);
-    rtcOccluded1(state_->scene, &r, &arguments);
+    rtcOccluded1(state_->scene.get(), &r, &arguments);
 #else
-    rtcOccluded1(state_->scene, &query, &r);
+    rtcOccluded1(state_->scene.get(), &query, &r);
 #endif
     return r.tfar < 0; // how Embree says so
 }
@@ -229,9 +294,9 @@ void EmbreeWorld::intersect(const RayPacket &rays, std::uint32_t active, const L
     Query query;
 #if RTC_VERSION_MAJOR >= 4
     RTCIntersectArguments arguments = intersecting(query);
-    rtcIntersect8(valid.lane, state_->scene, &r, &arguments);
+    rtcIntersect8(valid.lane, state_->scene.get(), &r, &arguments);
 #else
-    rtcIntersect8(valid.lane, state_->scene, &query, &r);
+    rtcIntersect8(valid.lane, state_->scene.get(), &query, &r);
 #endif
     for (int l = 0; l < lanes; ++l)
         candidates[l] = {r.hit.geomID[l], r.hit.primID[l], r.ray.tfar[l], r.hit.u[l], r.hit.v[l]};
@@ -245,9 +310,9 @@ std::uint32_t EmbreeWorld::blocks(const RayPacket &rays, std::uint32_t active, c
     query.left = left;
 #if RTC_VERSION_MAJOR >= 4
     RTCOccludedArguments arguments = occluding(query);
-    rtcOccluded8(valid.lane, state_->scene, &r, &arguments);
+    rtcOccluded8(valid.lane, state_->scene.get(), &r, &arguments);
 #else
-    rtcOccluded8(valid.lane, state_->scene, &query, &r);
+    rtcOccluded8(valid.lane, state_->scene.get(), &query, &r);
 #endif
     std::uint32_t blocked = 0;
     for (int l = 0; l < lanes; ++l) blocked |= static_cast<std::uint32_t>(r.tfar[l] < 0) << l;

@@ -2,14 +2,30 @@
 // The radiance of a pixel: its samples, eight at once by double precision.
 #pragma once
 
+#include <atomic>
 #include <bit>
+#include <cstdint>
 
+#include "exporter/process/child.h"
+#include "scenes/error.h"
 #include "verifier/tracer/gathered_rays.h"
 #include "verifier/tracer/packet.h"
 #include "verifier/tracer/shadow_rays.h"
 #include "verifier/tracer/world.h"
 
 namespace threefold::tracer {
+
+/// Where no glass is seen samples cost little: there are more of them, as far as there are numbers for them.
+constexpr std::int64_t samples_of_pixel(int samples, bool beside_glass) {
+    constexpr std::int64_t more = 4, most = std::int64_t{1} << 32; // positions have numbers of 32 bits
+    const std::int64_t all = samples;
+    return beside_glass && all * more <= most ? all * more : all;
+}
+
+/// Asked within pixels: one of very many samples must not keep a person waiting.
+inline void stop_if_interrupted() {
+    if (interrupt_requested.load(std::memory_order_relaxed)) throw Error(Exit::interrupted, "interrupted");
+}
 
 template <class Real>
 struct PixelScratch {
@@ -40,7 +56,7 @@ public:
         path.dropped = 0;
         const auto turn = static_cast<std::size_t>(sampler.next() * 65536);
         Rgb sum(0);
-        int samples = samples_;
+        std::int64_t samples = samples_;
         Pixel pixel{column, row,
                     static_cast<std::uint32_t>(row) * static_cast<std::uint32_t>(camera_.image_width_px()) +
                         static_cast<std::uint32_t>(column),
@@ -49,24 +65,26 @@ public:
         if constexpr (std::is_same_v<Real, double>) {
             packets = box_;
             if (packets) {
-                // Where no glass is seen samples cost little: there are more of them.
-                if (world_.is_plain() && sees_no_glass(column, row)) samples *= more_beside_glass;
-                pixel.share = 1.0 / samples;
+                samples = samples_of_pixel(samples_, world_.is_plain() && sees_no_glass(column, row));
+                pixel.share = 1.0 / static_cast<double>(samples);
                 sampler.use(sampler_, samples);
-                for (int k = 0; k < samples; k += lanes) {
-                    sum += packet(pixel, k, std::min(lanes, samples - k), scratch);
+                for (std::int64_t k = 0; k < samples; k += lanes) {
+                    stop_if_interrupted();
+                    sum += packet(pixel, static_cast<std::uint32_t>(k),
+                                  static_cast<int>(std::min<std::int64_t>(lanes, samples - k)), scratch);
                     if (scratch.shadows.size() > many_shadow_rays || scratch.gathered.size() > many_gathered_rays)
                         finish(scratch, pixels, missing);
                 }
             }
         }
         if (!packets) sampler.use(sampler_, samples);
-        for (int k = 0; !packets && k < samples; ++k) {
+        for (std::int64_t k = 0; !packets && k < samples; ++k) {
+            stop_if_interrupted();
             path.lights = &world_.lights().share(static_cast<std::size_t>(k), turn);
-            const Ray ray = film_.ray(position(sampler, column, row, k));
+            const Ray ray = film_.ray(position(sampler, column, row, static_cast<std::uint32_t>(k)));
             sum += world_.radiance({Vector<Real>(ray.origin_mm), Vector<Real>(ray.direction)}, 1, none, 0, path);
         }
-        missing[pixel.number] += path.dropped / samples;
+        missing[pixel.number] += path.dropped / static_cast<double>(samples);
         pixels[pixel.number] += sum / static_cast<double>(samples);
     }
 
@@ -82,7 +100,6 @@ public:
     }
 
 private:
-    static constexpr int more_beside_glass = 4;
     // So many still fit a processor's cache.
     static constexpr std::size_t many_shadow_rays = 1 << 14, many_gathered_rays = 1 << 11;
 
@@ -93,10 +110,9 @@ private:
         double share;     ///< of a sample in the pixel
     };
 
-    Vec2 position(const PixelSampler &sampler, int column, int row, int k) const {
-        const Vec2 at =
-            box_ ? Vec2(column, row) + sampler.position(static_cast<std::uint32_t>(k)) + camera_.film_offset_px
-                 : pixel_sample(camera_, column, row);
+    Vec2 position(const PixelSampler &sampler, int column, int row, std::uint32_t k) const {
+        const Vec2 at = box_ ? Vec2(column, row) + sampler.position(k) + camera_.film_offset_px
+                             : pixel_sample(camera_, column, row);
         return at + replicate_.film_offset_px;
     }
 
@@ -142,14 +158,14 @@ private:
         return true;
     }
 
-    const std::vector<Light> &lights_of(const Pixel &pixel, int sample) const {
-        return world_.lights().share(static_cast<std::size_t>(sample), pixel.turn);
+    const std::vector<Light> &lights_of(const Pixel &pixel, std::uint32_t sample) const {
+        return world_.lights().share(sample, pixel.turn);
     }
 
     /// The sum of the samples first to first + n - 1, but for the light of what waits for shadow rays.
-    Rgb packet(const Pixel &pixel, int first, int n, PixelScratch<double> &scratch) const {
+    Rgb packet(const Pixel &pixel, std::uint32_t first, int n, PixelScratch<double> &scratch) const {
         RayPacket rays;
-        camera_rays(film_, *scratch.path.sampler, static_cast<std::uint32_t>(first),
+        camera_rays(film_, *scratch.path.sampler, first,
                     Vec2(pixel.column, pixel.row) + camera_.film_offset_px + replicate_.film_offset_px, rays);
         const std::uint32_t active = all_lanes >> (lanes - n);
         Rgb sum(0);
@@ -200,7 +216,7 @@ private:
         std::uint32_t left = active & ~met;
         for (std::uint32_t bits = met; bits; bits &= bits - 1) {
             const int l = std::countr_zero(bits);
-            sum += arriving(hits[l], 1, pixel, first + l, scratch);
+            sum += arriving(hits[l], 1, pixel, first + static_cast<std::uint32_t>(l), scratch);
         }
         for (std::size_t i = 0; i < orbs.size() && left; ++i) {
             std::uint32_t inside = 0;
@@ -222,7 +238,7 @@ private:
     }
 
     /// What shines is given back; what reflects waits for its shadow rays.
-    Rgb arriving(const SurfaceHit &hit, double weight, const Pixel &pixel, int sample,
+    Rgb arriving(const SurfaceHit &hit, double weight, const Pixel &pixel, std::uint32_t sample,
                  PixelScratch<double> &scratch) const {
         const Rgb colour = world_.paints().colour(hit.object, hit.uv.x, hit.uv.y);
         if (world_.paints().shines(hit.object)) return weight * colour;
@@ -232,7 +248,7 @@ private:
     }
 
     Rgb glass(std::size_t orb, const RayPacket &rays, const EntryPacket &entry, std::uint32_t inside,
-              const Pixel &pixel, int first, PixelScratch<double> &scratch) const {
+              const Pixel &pixel, std::uint32_t first, PixelScratch<double> &scratch) const {
         auto &path = scratch.path;
         const TreeEnd<double> &end = world_.end();
         const bool roulette = end.roulette > 0;
@@ -260,7 +276,7 @@ private:
             }
             for (std::uint32_t bits = group; bits; bits &= bits - 1) {
                 const int l = std::countr_zero(bits);
-                path.lights = &lights_of(pixel, first + l);
+                path.lights = &lights_of(pixel, first + static_cast<std::uint32_t>(l));
                 sum += world_.glass(orb, {rays.origin.at(l), rays.direction.at(l)},
                                     {entry.distance[l], entry.impact[l], entry.depth[l], entry.foot.at(l)}, end, 1, 0,
                                     path);
@@ -328,7 +344,7 @@ private:
     }
 
     /// The light of all ways out of an orb.
-    Rgb leaving(std::size_t orb, std::uint32_t group, const Pixel &pixel, int first,
+    Rgb leaving(std::size_t orb, std::uint32_t group, const Pixel &pixel, std::uint32_t first,
                 PixelScratch<double> &scratch) const {
         auto &path = scratch.path;
         Rgb sum(0);
@@ -347,7 +363,7 @@ private:
                 for (std::uint32_t bits = entry.hits & asked; bits; bits &= bits - 1) {
                     const int l = std::countr_zero(bits);
                     const double weight = factor * out.weight[l];
-                    path.lights = &lights_of(pixel, first + l);
+                    path.lights = &lights_of(pixel, first + static_cast<std::uint32_t>(l));
                     sum += weight * world_.radiance({rays.origin.at(l), rays.direction.at(l)}, weight, orb, 1, path);
                 }
                 asked &= ~entry.hits;
@@ -359,8 +375,9 @@ private:
             for (; asked; asked &= asked - 1) {
                 const int l = std::countr_zero(asked);
                 const double weight = factor * out.weight[l];
-                sum += met >> l & 1u ? arriving(scratch.hits[l], weight, pixel, first + l, scratch)
-                                     : weight * world_.environment();
+                sum += met >> l & 1u
+                           ? arriving(scratch.hits[l], weight, pixel, first + static_cast<std::uint32_t>(l), scratch)
+                           : weight * world_.environment();
             }
         }
         return sum;

@@ -62,13 +62,13 @@ public:
                               static_cast<std::uint32_t>(column)))) {}
 
     /// Of so many samples; without this, by Sobol's sequence.
-    void use(Sampler kind, int samples) {
+    void use(Sampler kind, std::int64_t samples) {
         kind_ = kind;
         if (kind != Sampler::stratified) return;
         columns_ = 1;
-        for (int n = 1; n * n <= samples; ++n)
+        for (std::int64_t n = 1; n * n <= samples; ++n)
             if (samples % n == 0) columns_ = static_cast<std::uint32_t>(n);
-        rows_ = static_cast<std::uint32_t>(samples) / columns_;
+        rows_ = static_cast<std::uint32_t>(samples / columns_);
     }
     bool is_sobol() const { return kind_ == Sampler::sobol; }
 

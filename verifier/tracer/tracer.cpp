@@ -29,10 +29,15 @@ namespace {
 
 using namespace tracer;
 
-double process_cpu_seconds() {
+double cpu_seconds(clockid_t clock) {
     timespec now{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    clock_gettime(clock, &now);
     return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) * 1e-9;
+}
+
+/// Other renders may go on in this process: with one thread its own clock says what is this render's.
+clockid_t set_up_clock(const RenderJob &job) {
+    return job.threads == 1 ? CLOCK_THREAD_CPUTIME_ID : CLOCK_PROCESS_CPUTIME_ID;
 }
 
 /// Numbers are finest about the origin, and the orb is where they matter: the scene with its first orb there. Nothing
@@ -118,11 +123,11 @@ void render(const RenderJob &job, const TreeEnd<Real> &end, const std::function<
     const int width = camera.image_width_px(), height = camera.image_height_px();
     const int samples = job.sampling == Sampling::box ? job.samples_per_pixel : 1;
     const World<Real> world(job.scene, job.slip, end, samples);
-    outcome.set_up_cpu_seconds = process_cpu_seconds() - cpu_start;
+    outcome.set_up_cpu_seconds = cpu_seconds(set_up_clock(job)) - cpu_start;
     const double pixels = static_cast<double>(width) * height * static_cast<double>(job.replicates.size());
 
     const double of_all = static_cast<double>(tiles_of(camera)) * static_cast<double>(job.replicates.size());
-    std::atomic<double> done = 0;
+    std::atomic<double> done = 0, rendering_cpu = 0;
     std::mutex progress_mutex;
     tbb::enumerable_thread_specific<PixelScratch<Real>> scratches;
     double missing_sum = 0;
@@ -131,11 +136,13 @@ void render(const RenderJob &job, const TreeEnd<Real> &end, const std::function<
         std::vector<double> missing(image.pixels.size());
         const PixelRenderer<Real> pixel(world, job, replicate, sampler);
         tbb::parallel_for(tbb::blocked_range<int>(0, tiles_of(camera)), [&](const auto &tiles) {
+            const double start = cpu_seconds(CLOCK_THREAD_CPUTIME_ID);
             PixelScratch<Real> &scratch = scratches.local();
             for (int tile = tiles.begin(); tile != tiles.end(); ++tile) {
                 if (interrupt_requested) throw Error(Exit::interrupted, "interrupted");
                 render_tile(pixel, camera, tile, scratch, image.pixels, missing);
             }
+            rendering_cpu += cpu_seconds(CLOCK_THREAD_CPUTIME_ID) - start;
             if (on_progress) {
                 const double now = done += static_cast<double>(tiles.size());
                 const std::lock_guard lock(progress_mutex);
@@ -149,6 +156,7 @@ void render(const RenderJob &job, const TreeEnd<Real> &end, const std::function<
         outcome.images.push_back(std::move(image));
     }
     outcome.missing_weight_mean = missing_sum / pixels;
+    outcome.cpu_seconds = outcome.set_up_cpu_seconds + rendering_cpu;
 }
 
 } // namespace
@@ -161,7 +169,7 @@ TracerOutcome trace(const RenderJob &job, const TracerSettings &settings,
         return trace(same, settings, on_progress);
     }
     const auto start = std::chrono::steady_clock::now();
-    const double cpu_start = process_cpu_seconds();
+    const double cpu_start = cpu_seconds(set_up_clock(job));
     const Needs n = needs(job.scene);
     if (n.caustics) throw Error(Exit::bad_data, "the tracer does not follow caustics onto diffuse surfaces");
     if (n.environment_on_diffuse)
@@ -192,7 +200,6 @@ TracerOutcome trace(const RenderJob &job, const TracerSettings &settings,
         }
     });
     outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    outcome.cpu_seconds = process_cpu_seconds() - cpu_start;
     return outcome;
 }
 

@@ -2,6 +2,9 @@
 #include "verifier/witness/witness.h"
 
 #include <algorithm>
+#include <condition_variable>
+#include <mutex>
+#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -59,7 +62,9 @@ std::string tracer_key(const RenderJob &job, const std::string &hash, const Trac
 }
 
 std::string program_key(const Witness &witness, const Exported &exported) {
-    std::string all = witness.name + '\0' + witness.installed->version + '\0';
+    std::string all =
+        fmt::format("{}\n{}\n{}\n{} {} {}\n", witness.name, witness.installed->version, witness.adapter->revision,
+                    exported.pictures_per_replicate, exported.supersampling, exported.radiance_scale);
     for (const std::string &argument : exported.arguments) all += argument + '\0';
     for (const ExportedFile &file : exported.files) all += file.name + '\0' + content_hash(file.bytes);
     return content_hash(all);
@@ -175,6 +180,39 @@ std::vector<Witness> find_witnesses(const std::vector<std::string> &names) {
 
 namespace {
 
+/// Two claims may ask for the same pictures at the same time: the second waits, and finds them kept.
+class FolderInUse {
+public:
+    explicit FolderInUse(const std::filesystem::path &folder) : name_(folder.string()) {
+        std::unique_lock lock(mutex());
+        changed().wait(lock, [this] { return !names().contains(name_); });
+        names().insert(name_);
+    }
+    ~FolderInUse() {
+        const std::lock_guard lock(mutex());
+        names().erase(name_);
+        changed().notify_all();
+    }
+    FolderInUse(const FolderInUse &) = delete;
+    FolderInUse &operator=(const FolderInUse &) = delete;
+
+private:
+    static std::mutex &mutex() {
+        static std::mutex m;
+        return m;
+    }
+    static std::condition_variable &changed() {
+        static std::condition_variable c;
+        return c;
+    }
+    static std::set<std::string> &names() {
+        static std::set<std::string> n;
+        return n;
+    }
+
+    std::string name_;
+};
+
 Rendered take_pictures(const Witness &witness, const RenderJob &job, const RenderOptions &options) {
     const MitsubaJob asked = to_mitsuba_job(job, options.label);
     Rendered r;
@@ -209,6 +247,7 @@ Rendered render(const Witness &witness, RenderJob job, const RenderOptions &opti
     const std::string name = fmt::format("{}-{}-{}", options.label, witness.name, key.substr(0, 12));
     const std::filesystem::path folder = options.folder / "renders" / name;
 
+    const FolderInUse in_use(folder);
     std::optional<Rendered> r = cached(folder, key, job);
     if (!r) {
         if (exported || options.keep) make_folder(folder);
@@ -218,7 +257,9 @@ Rendered render(const Witness &witness, RenderJob job, const RenderOptions &opti
     RenderRecord &record = r->record;
     record.witness = witness.name;
     record.folder = "renders/" + name;
-    if (exported) record.command = fmt::format("{} {}", witness.adapter->program, fmt::join(exported->arguments, " "));
+    if (exported)
+        record.command = fmt::format("{} {} {}", witness.adapter->program, fmt::join(exported->thread_arguments, " "),
+                                     fmt::join(exported->arguments, " "));
     record.accuracy = exported ? exported->accuracy : tracer_accuracy(job, options.tracer);
     record.width_px = job.scene.camera.image_width_px();
     record.height_px = job.scene.camera.image_height_px();
