@@ -97,6 +97,7 @@ Image read_output(const Run &run, const fs::path &picture, const Exported &expor
     try {
         image = read_image(picture, Encoding::linear);
     } catch (const Error &error) {
+        if (error.code() != Exit::bad_data) throw; // not the renderer's doing
         run.fail(Exit::input_output, fmt::format("wrote a truncated or damaged picture: {}", error.what()));
     }
     const int width = camera.image_width_px() * exported.supersampling;

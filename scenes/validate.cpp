@@ -227,7 +227,9 @@ Needs needs(const Scene &scene) {
             n.glass = true;
             n.ray_tree |= glass->coating == Coating::fresnel;
         }
-        if (const Surface *surface = surface_of(object.shape)) diffuse |= std::holds_alternative<Diffuse>(*surface);
+        const Surface *surface = surface_of(object.shape);
+        const Diffuse *d = surface ? std::get_if<Diffuse>(surface) : nullptr;
+        diffuse |= d && greatest_value(d->reflectance) != Rgb(0); // what is black needs no light
     }
     if (scene.environment) {
         const Environment &e = *scene.environment;

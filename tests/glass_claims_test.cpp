@@ -134,6 +134,22 @@ TEST(Flips, OfTheGlassAreWhereTheClosedFormsPutThem) {
                 0.5, 0.01);
 }
 
+TEST(Calcite, ALostRayCountsAsFarFromTheCardsMiddleAsTheCardIsWide) {
+    static const std::vector<SceneRecipe> scenes = built_in_scenes();
+    const std::vector<Claim> claims = built_in_claims();
+    const std::vector<Experiment> all =
+        find_claim(claims, "calcite").experiments(ClaimContext{scenes, Preset::text, {}, true});
+    const auto ordinary = std::ranges::find(all, "calcite-ordinary", &Experiment::name);
+    ASSERT_NE(ordinary, all.end());
+    const Camera &camera = ordinary->scene.camera;
+    double width_mm = 0;
+    for (const Object &object : ordinary->scene.objects)
+        if (const Quad *quad = std::get_if<Quad>(&object.shape)) width_mm = 2 * glm::length(quad->half_u_mm);
+    ASSERT_GT(width_mm, 0);
+    const Image black(camera.image_width_px(), camera.image_height_px());
+    EXPECT_NEAR(ordinary->measure(black, camera).front().value / width_mm, 1, 0.1);
+}
+
 TEST(Flips, AreBracketedByExperimentsOfThatName) {
     static const std::vector<SceneRecipe> scenes = built_in_scenes();
     for (const std::string name : {"rim-reads-wall", "tint", "dark-layer", "calcite", "white-spots"}) {

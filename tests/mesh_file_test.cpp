@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
@@ -11,6 +12,7 @@
 #include <random>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include "exporter/file_reader.h"
 #include "exporter/files.h"
@@ -80,6 +82,86 @@ TEST(MeshFile, APolygonIsCutIntoTrianglesAndSharedCornersAreOneVertex) {
     ASSERT_THAT(mesh.uv, SizeIs(4));
     for (std::size_t i = 0; i < 4; ++i) // v is up: just the place, by the numbers above
         EXPECT_EQ(mesh.uv[i], Vec2(mesh.vertices_mm[i].x / 2, mesh.vertices_mm[i].y));
+}
+
+TEST(MeshFile, AnObjIsReadAsItIsWrittenWhateverTheSpelling) {
+    const tests::TemporaryFolder folder;
+    const auto read = [&](const std::string &text) { return read_mesh(write(folder / "t.obj", text)); };
+    const std::string five = "v 0 0 0\nv .5 0 0\nv 1 1 0\nv 0 1 0\nv 5 5 5\nf 1 3 4\n";
+    EXPECT_THAT(read(five).vertices_mm, ElementsAre(Vec3(0, 0, 0), Vec3(1, 1, 0), Vec3(0, 1, 0)));
+    EXPECT_THAT(read("v 0 0 0 2\nv 3 0 0 2\nv 0 4 0 2\nf 1 2 3\n").vertices_mm,
+                ElementsAre(Vec3(0, 0, 0), Vec3(3, 0, 0), Vec3(0, 4, 0)));
+    EXPECT_THAT(
+        read("v 0 0 0 1 0 0\r\nv +3 -0 0 0 1 0\r\nv 0 4e0 0. 0 0 1\r\nf -3//1 \\\r\n-2//1 -1//1 # end\r\n").vertices_mm,
+        ElementsAre(Vec3(0, 0, 0), Vec3(3, 0, 0), Vec3(0, 4, 0)));
+    EXPECT_THAT(read("\xef\xbb\xbfmtllib bad.mtl\nusemtl none\no x\ns off\nl 1 2\nv 0.1 0 0\nv 3 0 0\nv 0 4 0\nf 1 2 3")
+                    .vertices_mm,
+                ElementsAre(Vec3(0.1, 0, 0), Vec3(3, 0, 0), Vec3(0, 4, 0)));
+}
+
+TEST(MeshFile, AnMtlThatCannotBeReadIsOfNoConcern) {
+    const tests::TemporaryFolder folder;
+    write(folder / "bad.mtl", "newmtl a\nKd none of these\nmap_Kd\n\xff\xfe\n");
+    const Mesh mesh =
+        read_mesh(write(folder / "t.obj", "mtllib bad.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
+    EXPECT_THAT(mesh.triangles, SizeIs(1));
+}
+
+TEST(MeshFile, ALineOfAnObjThatCannotBeReadIsRefusedWithItsNumber) {
+    const tests::TemporaryFolder folder;
+    const std::string good = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    for (const char *bad : {"v 1 2", "v 1 2 x", "v 1 2 3,4", "vt", "vt x", "f 1 2 x", "f 1 2 0", "f 1 2 -4", "f 1 2 4",
+                            "f 1/1 2/1 3/1", "f 1 2 3.5", "surf 0 1 0 1 1 2", "f 1 2 99999999999999999999"})
+        EXPECT_THAT(refusal(write(folder / "t.obj", good + bad + "\nf 1 2 3\n")), HasSubstr("line 4: ")) << bad;
+}
+
+double area_of(const Mesh &mesh) {
+    double area = 0;
+    for (const glm::uvec3 &t : mesh.triangles)
+        area += glm::length(glm::cross(mesh.vertices_mm[t.y] - mesh.vertices_mm[t.x],
+                                       mesh.vertices_mm[t.z] - mesh.vertices_mm[t.x])) /
+                2;
+    return area;
+}
+
+TEST(MeshFile, AConcavePolygonWithCornersOnALineHasItsOwnAreaInObjAndPly) {
+    const tests::TemporaryFolder folder;
+    const char *places[] = {"4 0", "4 5", "6 5", "6 0", "10 0", "10 10", "0 10", "0 5", "0 0"};
+    std::string obj, face = "f",
+                     ply = "ply\nformat ascii 1.0\nelement vertex 9\nproperty float x\nproperty float y\n"
+                           "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+                           "end_header\n";
+    for (int k = 0; k < 9; ++k) {
+        obj += fmt::format("v {} 0\n", places[k]);
+        face += fmt::format(" {}", k + 1);
+        ply += fmt::format("{} 0\n", places[k]);
+    }
+    EXPECT_NEAR(area_of(read_mesh(write(folder / "u.obj", obj + face + "\n"))), 90, 1e-9);
+    EXPECT_NEAR(area_of(read_mesh(write(folder / "u.ply", ply + "9 0 1 2 3 4 5 6 7 8\n"))), 90, 1e-9);
+}
+
+TEST(MeshFile, ABinaryPlyMayBeginItsDataWithTheByteOfALinesEnd) {
+    const tests::TemporaryFolder folder;
+    const std::string head =
+        "ply\nformat binary_little_endian 1.0\ncomment x\nelement vertex 3\nproperty float x\nproperty float "
+        "y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
+    for (const std::uint32_t bits : {0x3f80000au, 0x3f80000du, 0x3f800000u}) {
+        const auto x = std::bit_cast<float>(bits);
+        const Mesh mesh = read_mesh(write(folder / "t.ply", head + raw<float>({x, 0, 0, 3, 0, 0, 0, 4, 0}) + "\3" +
+                                                                raw<std::int32_t>({0, 1, 2})));
+        EXPECT_THAT(mesh.vertices_mm, ElementsAre(Vec3(x, 0, 0), Vec3(3, 0, 0), Vec3(0, 4, 0))) << bits;
+    }
+}
+
+TEST(MeshFile, ABinaryPlyWithElementsBeforeItsVerticesIsRefused) {
+    const tests::TemporaryFolder folder;
+    const std::string head =
+        "ply\nformat binary_little_endian 1.0\nelement camera 1\nproperty float f\nelement vertex 3\n"
+        "property float x\nproperty float y\nproperty float z\nelement face 1\n"
+        "property list uchar int vertex_indices\nend_header\n";
+    EXPECT_THAT(refusal(write(folder / "t.ply",
+                              head + raw<float>({7, 0, 0, 0, 3, 0, 0, 0, 4, 0}) + "\3" + raw<std::int32_t>({0, 1, 2}))),
+                HasSubstr("'camera' before its vertices"));
 }
 
 TEST(MeshFile, TransformsOfNodesAreAppliedAndVIsUpInGltfToo) {

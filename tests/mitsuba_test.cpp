@@ -10,6 +10,7 @@
 #include <fstream>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <glm/geometric.hpp>
 
 #include "exporter/file_reader.h"
@@ -25,12 +26,14 @@
 #include "tests/temporary_folder.h"
 #include "verifier/check/check.h"
 #include "verifier/check/plan.h"
+#include "verifier/tracer/tracer.h"
 
 namespace threefold {
 namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 namespace fs = std::filesystem;
 
 constexpr const char *camera = R"(<sensor type="perspective"><float name="fov" value="10"/><transform name="toWorld">
@@ -38,11 +41,17 @@ constexpr const char *camera = R"(<sensor type="perspective"><float name="fov" v
 <integer name="height" value="48"/></film></sensor><emitter type="constant"><spectrum name="radiance" value="1"/></emitter>)";
 
 Scene read(const tests::TemporaryFolder &folder, const std::string &body, const std::vector<Assignment> &set = {},
-           const std::string &version = "0.5.0", std::vector<std::string> *notes = nullptr) {
+           const std::string &version = "0.5.0", std::vector<std::string> *notes = nullptr,
+           std::vector<std::string> *changes = nullptr) {
     std::ofstream(folder / "scene.xml") << "<scene version=\"" << version << "\">\n" << body << "</scene>";
-    const SceneRecipe recipe = mitsuba_scene(folder / "scene.xml", [notes](const std::string &note) {
-        if (notes) notes->push_back(note);
-    });
+    const SceneRecipe recipe = mitsuba_scene(
+        folder / "scene.xml",
+        [notes](const std::string &note) {
+            if (notes) notes->push_back(note);
+        },
+        [changes](const std::string &change) {
+            if (changes) changes->push_back(change);
+        });
     Parameters p(recipe.parameters, Preset::text, file_reader());
     for (const Assignment &a : set) p.set(a.name, a.value);
     return recipe.make(p);
@@ -195,6 +204,139 @@ TEST(Mitsuba, ASizeThatNeedsAFilmBeyondAllNumbersIsRefused) {
             EXPECT_EQ(error.code(), Exit::bad_data);
             EXPECT_THAT(error.what(), HasSubstr("the whole film would have"));
         }
+}
+
+/// What is told of a file that is read otherwise, on one line.
+std::string changes_of(const tests::TemporaryFolder &folder, const std::string &body) {
+    std::vector<std::string> changes;
+    read(folder, body, {}, "0.5.0", nullptr, &changes);
+    return fmt::format("{}", fmt::join(changes, "; "));
+}
+
+std::string sensor_of(const std::string &transform) {
+    return R"(<sensor type="perspective"><float name="fov" value="10"/><transform name="toWorld">)" + transform +
+           R"(</transform></sensor><emitter type="constant"><spectrum name="radiance" value="1"/></emitter>)";
+}
+
+TEST(Mitsuba, ATransformBeforeALookAtTurnsTheCamerasUpAndMovesTheEyeAlone) {
+    const tests::TemporaryFolder folder;
+    const std::string look = R"(<lookat target="0,0,0" origin="90,0,0" up="0,1,0"/>)";
+    const Camera turned = read(folder, sensor_of(R"(<rotate z="1" angle="90"/>)" + look)).camera;
+    const Vec3 forward = glm::normalize(turned.target_mm - turned.eye_mm), up = glm::normalize(turned.up);
+    EXPECT_LT(glm::distance(forward, Vec3(-1, 0, 0)), 1e-12);
+    // Forward is -x and up was y, so that left, their cross product, is z; a quarter turn takes up to -left or left.
+    EXPECT_NEAR(std::abs(up.z), 1, 1e-12);
+    EXPECT_LT(glm::distance(turned.eye_mm, Vec3(900, 0, 0)), 1e-9);
+    const Camera moved = read(folder, sensor_of(R"(<translate y="1"/>)" + look)).camera;
+    EXPECT_LT(glm::distance(moved.eye_mm, Vec3(900, 10, 0)), 1e-9);
+    EXPECT_LT(glm::distance(glm::normalize(moved.target_mm - moved.eye_mm), Vec3(-1, 0, 0)), 1e-12);
+    const Camera after = read(folder, sensor_of(look + R"(<translate y="1"/>)")).camera;
+    EXPECT_LT(glm::distance(after.target_mm, Vec3(0, 10, 0)), 1e-9);
+}
+
+TEST(Mitsuba, APerspectiveCameraWithAScaleIsRefused) {
+    const tests::TemporaryFolder folder;
+    EXPECT_THAT(refusal(folder, sensor_of(R"(<scale value="2"/><translate z="5"/>)")), HasSubstr("has a scale"));
+    EXPECT_EQ(refusal(folder, sensor_of(R"(<rotate y="1" angle="30"/><translate z="5"/>)")), "was read");
+}
+
+TEST(Mitsuba, TwoElementsOfOneIdAreRefused) {
+    const tests::TemporaryFolder folder;
+    EXPECT_THAT(refusal(folder, std::string(camera) + R"(<bsdf type="diffuse" id="a"/><bsdf type="diffuse" id="a"/>)"),
+                HasSubstr("has the id of another"));
+}
+
+TEST(Mitsuba, ATwoSidedRectangleWithABlackFrontShowsItsBack) {
+    const tests::TemporaryFolder folder;
+    const auto seen = [&](double angle) {
+        const Scene s = read(
+            folder, camera + fmt::format(R"(<shape type="rectangle"><transform name="toWorld"><rotate y="1" angle="{}"/>
+<translate x="-10"/></transform><bsdf type="twosided"><bsdf type="diffuse"><spectrum name="reflectance" value="0"/></bsdf>
+<bsdf type="diffuse"><spectrum name="reflectance" value="0.8"/></bsdf></bsdf></shape>)",
+                                         angle));
+        return std::get<Rgb>(std::get<Diffuse>(std::get<Quad>(s.objects.back().shape).surface).reflectance);
+    };
+    EXPECT_EQ(seen(90), Rgb(0));
+    EXPECT_EQ(seen(-90), Rgb(0.8));
+}
+
+TEST(Mitsuba, AnEmittingCardSeenFromBehindNeedsNoLight) {
+    const tests::TemporaryFolder folder;
+    const Scene s = read(folder, std::string(camera) + R"(<shape type="rectangle"><transform name="toWorld">
+<rotate y="1" angle="-90"/><translate x="-10"/></transform><emitter type="area"><spectrum name="radiance" value="1"/>
+</emitter></shape>)");
+    EXPECT_FALSE(needs(s).environment_on_diffuse);
+    RenderJob job;
+    job.scene = s;
+    job.scene.camera.width_px = job.scene.camera.height_px = 1;
+    job.sampling = Sampling::pixel_centres;
+    EXPECT_EQ(trace(job).images.front().pixels.front(), Rgb(0));
+}
+
+TEST(Mitsuba, WhatChangesThePictureIsToldAsAChange) {
+    const tests::TemporaryFolder folder;
+    const std::string lit = std::string(camera) + R"(<shape type="rectangle"><transform name="toWorld">
+<rotate y="1" angle="90"/><translate x="-10"/></transform></shape>)";
+    EXPECT_EQ(changes_of(folder, camera), "");
+    const std::string dome = changes_of(folder, lit);
+    EXPECT_THAT(dome, HasSubstr("as 48 parallel lights"));
+    EXPECT_THAT(dome, Not(HasSubstr("stops at glass")));
+    EXPECT_THAT(changes_of(folder, lit + sphere(1, glass("1.5", "1"))), HasSubstr("stops at glass"));
+    EXPECT_THAT(changes_of(folder, lit + lit.substr(lit.find("<shape"))), HasSubstr("throw on each other"));
+    const auto integrator = [&](const char *inside) {
+        return changes_of(folder, std::string(camera) + "<integrator type=\"path\">" + inside + "</integrator>");
+    };
+    EXPECT_EQ(integrator(""), "");
+    EXPECT_EQ(integrator(R"(<integer name="maxDepth" value="-1"/>)"), "");
+    EXPECT_THAT(integrator(R"(<integer name="maxDepth" value="4"/>)"), HasSubstr("maxDepth 4"));
+    EXPECT_THAT(integrator(R"(<boolean name="hideEmitters" value="true"/>)"), HasSubstr("hideEmitters"));
+}
+
+TEST(Mitsuba, AMeshOfOneSideIsReadAsItIsSeen) {
+    const tests::TemporaryFolder folder;
+    // Before the eye at x = 900, in the plane x = -100: once round in either sense.
+    std::ofstream(folder / "front.obj") << "v -10 -1 -1\nv -10 1 -1\nv -10 0 1\nf 1 2 3\n";
+    std::ofstream(folder / "back.obj") << "v -10 -1 -1\nv -10 1 -1\nv -10 0 1\nf 1 3 2\n";
+    const auto body = [&](const std::string &file, const std::string &more) {
+        return camera + fmt::format(R"(<shape type="obj"><string name="filename" value="{}"/>{}</shape>)", file, more);
+    };
+    const std::string shines = R"(<emitter type="area"><spectrum name="radiance" value="1"/></emitter>)";
+    const std::string flipped = R"(<boolean name="flipNormals" value="true"/>)";
+    const auto is_seen = [&](const std::string &text) {
+        const Surface &s = std::get<Mesh>(read(folder, text).objects.back().shape).surface;
+        const auto *e = std::get_if<Emissive>(&s);
+        return e && std::get<Rgb>(e->radiance) == Rgb(1);
+    };
+    EXPECT_TRUE(is_seen(body("front.obj", shines)));
+    EXPECT_FALSE(is_seen(body("back.obj", shines)));
+    EXPECT_FALSE(is_seen(body("front.obj", shines + flipped)));
+    EXPECT_TRUE(is_seen(body("back.obj", shines + flipped)));
+    EXPECT_EQ(changes_of(folder, body("back.obj", shines)), "");
+    const std::string orbs = sphere(1, glass("1.5", "1"));
+    EXPECT_EQ(changes_of(folder, body("front.obj", shines) + orbs), "");
+    std::ofstream(folder / "both.obj") << "v 10 -2 -2\nv 10 3 -2\nv 10 0 3\nf 1 2 3\n";
+    EXPECT_THAT(changes_of(folder, body("both.obj", shines) + orbs), HasSubstr("may be seen from both"));
+    std::ofstream(folder / "bent.obj") << "v -10 -1 -1\nv -10 1 -1\nv -10 0 1\nv -12 1 1\nf 1 2 3\nf 2 4 3\n";
+    EXPECT_THAT(changes_of(folder, body("bent.obj", "")), HasSubstr("is flat shaded"));
+    EXPECT_THAT(changes_of(folder, body("bent.obj", R"(<boolean name="faceNormals" value="true"/>)")),
+                Not(HasSubstr("is flat shaded")));
+}
+
+TEST(Mitsuba, ARepeatedPictureWhoseEdgesDifferIsToldAsAChange) {
+    const tests::TemporaryFolder folder;
+    const auto told = [&](std::vector<Rgb> pixels, const std::string &wrap) {
+        Image image(2, 2);
+        image.pixels = std::move(pixels);
+        write_image(folder / "p.png", image);
+        return changes_of(folder, camera + fmt::format(R"(<shape type="rectangle"><transform name="toWorld">
+<rotate y="1" angle="90"/><translate x="-10"/></transform><bsdf type="diffuse"><texture type="bitmap" name="reflectance">
+<string name="filename" value="p.png"/>{}</texture></bsdf></shape>)",
+                                                       wrap));
+    };
+    const std::vector<Rgb> uneven{Rgb(0), Rgb(1), Rgb(0), Rgb(1)}, even(4, Rgb(0.5));
+    EXPECT_THAT(told(uneven, ""), HasSubstr("is repeated in the file"));
+    EXPECT_THAT(told(uneven, R"(<string name="wrapMode" value="clamp"/>)"), Not(HasSubstr("is repeated")));
+    EXPECT_THAT(told(even, ""), Not(HasSubstr("is repeated")));
 }
 
 TEST(Mitsuba, OffersTheShadowsOfGlassThatRenderersCanDoAndNoOther) {

@@ -44,7 +44,7 @@ std::string try_out(const Shop &shop, const Witness &witness, const std::filesys
         RenderJob job;
         job.scene = scene_of(shop, {shop.scenes.front().name, "text", {}, "16x16"});
         job.samples_per_pixel = 1;
-        render(witness, job, {folder, "doctor", {}, std::chrono::seconds(120), {}});
+        render(witness, job, {folder, "doctor", {}, std::chrono::seconds(120), {}, false});
         return "";
     } catch (const Error &error) {
         return error.what();

@@ -49,9 +49,14 @@ SceneRecipe recipe_of(const Shop &shop, const SceneRequest &request) {
 
 SceneRecipe mitsuba_recipe(const Shop &shop, const std::string &file) {
     const auto told = std::make_shared<std::set<std::string>>(); // a claim builds its scene several times
-    return mitsuba_scene(file, [&shop, told](const std::string &note) {
-        if (shop.verbosity > 0 && told->insert(note).second) say("note: " + note);
-    });
+    return mitsuba_scene(
+        file,
+        [&shop, told](const std::string &note) {
+            if (shop.verbosity > 0 && told->insert(note).second) say("note: " + note);
+        },
+        [told](const std::string &change) {
+            if (told->insert(change).second) say("read otherwise than the file says: " + change);
+        });
 }
 
 Scene scene_of(const Shop &shop, const SceneRequest &request) {

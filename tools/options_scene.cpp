@@ -12,7 +12,7 @@ void add_scene_options(CLI::App &command, SceneRequest &scene) {
     command.add_option("scene", scene.name, "Scene of the catalogue (see: threefold list)");
     command.add_option("--mitsuba", scene.mitsuba,
                        "Instead: a scene file of Mitsuba 0.5 to 3 (units: --set file.unit_mm, 10 by default; --verbose "
-                       "tells what in it is not used)");
+                       "tells also what in it is not used without changing the picture)");
     command
         .add_option("--preset", scene.preset, "Values of the study's wording (text) or of its scene files (published)")
         ->capture_default_str();

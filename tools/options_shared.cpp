@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <charconv>
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
@@ -63,11 +65,15 @@ CLI::Option *add_time_limit_option(CLI::App &command, double &seconds, std::stri
 }
 
 CLI::Option *add_seed_option(CLI::App &command, std::uint64_t &seed, std::string_view help) {
-    // The parser takes -1 for 2^64 - 1.
-    const auto unsigned_only = [](const std::string &text) {
-        return text.starts_with('-') ? fmt::format("must be a whole number from 0 to 2^64 - 1, not {}", text) : "";
+    // The parser takes -1 and greater numbers for 2^64 - 1, and 010 for 8.
+    const auto as_written = [](const std::string &text) {
+        std::uint64_t number = 0;
+        const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), number);
+        const bool good =
+            status == std::errc{} && end == text.data() + text.size() && text == fmt::format("{}", number);
+        return good ? std::string() : fmt::format("must be a whole number from 0 to 2^64 - 1, not {}", text);
     };
-    return command.add_option("--seed", seed, std::string(help))->capture_default_str()->check(unsigned_only);
+    return command.add_option("--seed", seed, std::string(help))->capture_default_str()->check(as_written);
 }
 
 CLI::Option *add_json_option(CLI::App &command, std::optional<std::string> &file) {

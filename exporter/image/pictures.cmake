@@ -20,6 +20,7 @@ set_source_files_properties(${PROJECT_SOURCE_DIR}/exporter/image/load_pictures.c
 # Programs elsewhere that link the library find it by their library path. Ours in the build folder do, too; CMake takes
 # that path out of what it installs.
 set(CMAKE_BUILD_RPATH ${PROJECT_BINARY_DIR})
-target_link_options(threefold_exporter INTERFACE
-  "$<$<NOT:$<BOOL:${PROJECT_IS_TOP_LEVEL}>>:$<BUILD_INTERFACE:LINKER:-rpath,${PROJECT_BINARY_DIR}>>"
-  "$<INSTALL_INTERFACE:LINKER:-rpath,$<INSTALL_PREFIX>/${pictures_folder}>")
+target_link_options(threefold_exporter INTERFACE "$<INSTALL_INTERFACE:LINKER:-rpath,$<INSTALL_PREFIX>/${pictures_folder}>")
+if(NOT PROJECT_IS_TOP_LEVEL)
+  target_link_options(threefold_exporter INTERFACE "$<BUILD_INTERFACE:LINKER:-rpath,${PROJECT_BINARY_DIR}>")
+endif()

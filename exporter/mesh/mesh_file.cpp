@@ -2,6 +2,7 @@
 #include "exporter/mesh/mesh_file.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <string_view>
@@ -10,6 +11,7 @@
 
 #include "exporter/files.h"
 #include "exporter/mesh/assimp_import.h"
+#include "exporter/mesh/obj_import.h"
 #include "exporter/process/guarded.h"
 #include "scenes/error.h"
 
@@ -66,11 +68,18 @@ bool unpack(std::string_view bytes, Mesh &mesh) {
            });
 }
 
+bool is_obj(const std::filesystem::path &path) {
+    std::string extension = path.extension().string();
+    std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+    return extension == ".obj";
+}
+
 } // namespace
 
 Mesh read_mesh(const std::filesystem::path &path) {
     if (require_readable_file(path) == 0) throw_bad_mesh(path, "the file is empty");
-    const GuardedResult result = run_guarded({.work = [&] { return pack(import_with_assimp(path.string())); }});
+    const GuardedResult result = run_guarded(
+        {.work = [&] { return pack(is_obj(path) ? import_obj(path.string()) : import_with_assimp(path.string())); }});
     if (!result.succeeded) throw_bad_mesh(path, result.failure);
     Mesh mesh;
     if (!unpack(result.bytes, mesh)) throw_bad_mesh(path, "its reader went astray");

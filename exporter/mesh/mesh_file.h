@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A mesh from a user's own file, in any format that Assimp reads (OBJ, PLY, STL, glTF, COLLADA, FBX ...).
+// A mesh from a user's own file, OBJ, or any other format that Assimp reads (PLY, STL, glTF, COLLADA, FBX ...).
 // Lengths are the numbers of the file, in COLLADA metres (Assimp goes by the unit that the file declares); v is up.
 // Normals, materials, bones and animations of the file are left out.
 #pragma once

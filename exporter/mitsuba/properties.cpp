@@ -96,11 +96,19 @@ std::string described(const Node &node) {
     return text + ">";
 }
 
-void collect_ids(const Node &node, std::map<std::string, const Node *> &by_id) {
+void collect_ids(const Node &node, std::map<std::string, const Node *> &by_id, Findings &findings) {
     for (const Node &child : node.children) {
-        if (const std::string *id = child.attribute("id"); id && child.tag != "ref") by_id.try_emplace(*id, &child);
-        collect_ids(child, by_id);
+        if (const std::string *id = child.attribute("id"); id && !id->empty() && child.tag != "ref")
+            if (const auto [other, is_new] = by_id.try_emplace(*id, &child); !is_new)
+                findings.problem(child, fmt::format("has the id of another, at {}", other->second->place.text()));
+        collect_ids(child, by_id, findings);
     }
+}
+
+/// Along the axes: a view stays the same, but for its width.
+bool only_scales(const glm::dmat4 &m) {
+    const Vec3 scale(m[0].x, m[1].y, m[2].z);
+    return scale.x > 0 && scale.y > 0 && scale.z > 0 && m == glm::scale(glm::dmat4(1), scale);
 }
 
 /// One element of a transform; empty where it means nothing.
@@ -160,11 +168,17 @@ void Findings::problem(const Node &node, const std::string &what) {
     problems.push_back(fmt::format("{}: {}", described(node), what));
 }
 
+void Findings::change(const Node &node, const std::string &what) {
+    changes.push_back(fmt::format("{}: {}", described(node), what));
+}
+
 void Findings::note(const Node &node, const std::string &what) {
     notes.push_back(fmt::format("{}: {}", described(node), what));
 }
 
-Document::Document(const Tree &whole, Findings &found) : tree(whole), findings(found) { collect_ids(tree.root, by_id); }
+Document::Document(const Tree &whole, Findings &found) : tree(whole), findings(found) {
+    collect_ids(tree.root, by_id, findings);
+}
 
 Properties::Properties(const Node &element, Document &document) : element_(element), document_(document) {
     for (const Node &child : element.children) {
@@ -265,12 +279,15 @@ Transform Properties::transform(const std::string &name) {
     if (!child) return whole;
     for (const Node &node : child->node->children) {
         std::optional<Transform::Look> before = whole.look;
+        const bool turned = !only_scales(whole.matrix);
         const std::optional<glm::dmat4> step = step_of(node, whole);
         if (!step || !is_finite(*step)) {
             document_.findings.problem(node, "is no transform that can be read (translate, rotate, scale, lookat with "
                                              "origin, target and up, matrix with last row 0 0 0 1)");
             return whole;
         }
+        // What was turned before it, its own target and up say nothing of.
+        if (!before && turned) whole.look.reset();
         if (before) {
             whole.look =
                 Transform::Look{Vec3(*step * glm::dvec4(before->target, 1)), Vec3(*step * glm::dvec4(before->up, 0))};

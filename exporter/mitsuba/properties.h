@@ -12,11 +12,13 @@
 
 namespace threefold::mitsuba {
 
-/// What cannot be read, and what is left out without harm; both with where it stands.
+/// What cannot be read; what is read otherwise, so that the picture may be another; and what is left out without harm.
+/// All with where it stands.
 struct Findings {
-    std::vector<std::string> problems, notes;
+    std::vector<std::string> problems, changes, notes;
 
     void problem(const Node &node, const std::string &what);
+    void change(const Node &node, const std::string &what);
     void note(const Node &node, const std::string &what);
 };
 

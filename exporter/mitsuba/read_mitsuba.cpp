@@ -13,6 +13,7 @@
 
 #include "exporter/mitsuba/reader.h"
 #include "exporter/text.h"
+#include "scenes/access.h"
 #include "scenes/error.h"
 #include "scenes/texture.h"
 
@@ -92,6 +93,17 @@ void Reader::film(const Node &node, const std::string &axis, double fov) {
         along == "x" ? fov : 360 / std::numbers::pi * std::atan(std::tan(fov * std::numbers::pi / 360) * width / reach);
 }
 
+void Reader::integrator(const Node &node) {
+    Properties p(node, document_);
+    const int depth = p.whole("max_depth").value_or(-1);
+    const std::string type = p.type();
+    findings_.note(node, "not used: --with says who renders, glass.shadow how light passes glass");
+    if (depth >= 0)
+        findings_.change(node, fmt::format("maxDepth {}: here light is followed to its end through glass", depth));
+    if (type == "direct") findings_.change(node, "direct light alone: here light is followed through glass to its end");
+    if (p.boolean("hide_emitters", false)) findings_.change(node, "hideEmitters: here emitters are seen");
+}
+
 void Reader::sensor(const Node &node) {
     Properties p(node, document_);
     if (has_sensor_) return findings_.problem(node, "is a second sensor: a scene has one camera");
@@ -130,6 +142,8 @@ void Reader::sensor(const Node &node) {
         findings_.problem(node, "its transform is skewed, or stretches the picture");
     else if (glm::dot(glm::cross(left, up), forward) < 0)
         findings_.problem(node, "its transform mirrors the picture");
+    else if (!parallel && std::max({std::abs(l - 1), std::abs(u - 1), std::abs(f - 1)}) > 1e-3)
+        findings_.problem(node, "its transform has a scale, which means nothing to a perspective camera");
     camera.eye_mm = unit_mm_ * Vec3(place.matrix[3]);
     if (place.look) {
         camera.target_mm = unit_mm_ * place.look->target;
@@ -196,7 +210,7 @@ Scene Reader::scene() {
         else if (node.tag == "sensor")
             sensor(node);
         else if (node.tag == "integrator")
-            findings_.note(node, "not used: --with says who renders, glass.shadow how light passes glass");
+            integrator(node);
         else if (node.tag == "bsdf" || node.tag == "texture")
             ; // read where a shape refers to it
         else if (node.tag == "medium" && node.attribute("id"))
@@ -207,6 +221,15 @@ Scene Reader::scene() {
     if (!has_sensor_) findings_.problem(document_.tree.root, "has no sensor");
     put_glass_together();
     put_surfaces_together();
+    std::size_t reflecting = 0;
+    for (const Object &object : scene_.objects) {
+        const Surface *surface = surface_of(object.shape);
+        const Diffuse *d = surface ? std::get_if<Diffuse>(surface) : nullptr;
+        // A mesh may throw light on itself.
+        if (d && greatest_value(d->reflectance) != Rgb(0))
+            reflecting += std::holds_alternative<Mesh>(object.shape) ? 2 : 1;
+    }
+    if (reflecting > 1) findings_.change(document_.tree.root, "light that surfaces throw on each other is left out");
     if (const double radiance = parameters_.number("environment.radiance"); radiance >= 0)
         scene_.environment = Environment{Rgb(radiance), 0};
     bool diffuse = false;
@@ -224,6 +247,14 @@ Scene Reader::scene() {
             scene_.environment->dome_directions = 48;
         else
             scene_.environment->dome_directions = said;
+        if (needed) {
+            findings_.change(document_.tree.root, fmt::format("the environment lights surfaces as {} parallel lights "
+                                                              "(environment.dome_directions)",
+                                                              scene_.environment->dome_directions));
+            if (!spheres_.empty() && parameters_.word("glass.shadow") != "none")
+                findings_.change(document_.tree.root, "the environment's light on surfaces stops at glass, or is "
+                                                      "weakened there (glass.shadow); Mitsuba follows it through");
+        }
     } else if (scene_.lights.empty() && findings_.problems.empty()) {
         bool seen = false;
         for (const Flat &flat : flats_) seen |= !std::holds_alternative<Diffuse>(flat.sides.front);
@@ -341,7 +372,8 @@ std::vector<ParameterSpec> parameters_in(const Tree &tree) {
 
 } // namespace
 
-SceneRecipe mitsuba_scene(const std::filesystem::path &file, std::function<void(const std::string &note)> tell) {
+SceneRecipe mitsuba_scene(const std::filesystem::path &file, std::function<void(const std::string &note)> tell,
+                          std::function<void(const std::string &change)> warn) {
     const Tree first = mitsuba::read_tree(file, {});
     SceneRecipe recipe;
     recipe.name = one_line(file.stem().string());
@@ -350,13 +382,13 @@ SceneRecipe mitsuba_scene(const std::filesystem::path &file, std::function<void(
     const std::vector<std::pair<std::string, std::string>> defaults = first.defaults;
     const auto said_name = first.said.find("name");
     const std::string name = said_name == first.said.end() ? recipe.name : said_name->second;
-    recipe.build = [file, tell, defaults, name](const Parameters &p) {
+    recipe.build = [file, tell, warn, defaults, name](const Parameters &p) {
         std::map<std::string, std::string> given;
         for (const auto &[key, value] : defaults)
             if (const auto n = mitsuba::to_number(value); n && p.has("default." + key))
                 if (const double now = p.number("default." + key); now != *n) given[key] = fmt::format("{}", now);
         const Tree tree = mitsuba::read_tree(file, given);
-        mitsuba::Findings findings{tree.problems, tree.notes};
+        mitsuba::Findings findings{tree.problems, {}, tree.notes};
         mitsuba::Document document(tree, findings);
         mitsuba::Reader reader(document, p);
         Scene scene = reader.scene();
@@ -371,6 +403,7 @@ SceneRecipe mitsuba_scene(const std::filesystem::path &file, std::function<void(
                                                     fmt::join(findings.problems, "; "),
                                                     all > most ? fmt::format("; and {} more", all - most) : ""));
         }
+        for (const std::string &change : findings.changes) warn(change);
         for (const std::string &note : findings.notes) tell(note);
         return scene;
     };

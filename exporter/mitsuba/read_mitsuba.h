@@ -14,9 +14,11 @@
 namespace threefold {
 
 /// The file as a scene like those of the catalogue: its parameters are listed by `show`, changed by `--set`. `tell`
-/// gets the notes, each time that the scene is built. Throws Error(input_output) for a file that is not there and
+/// gets the notes, and `warn` what is read otherwise so that the picture may be another, each time that the scene is
+/// built. Throws Error(input_output) for a file that is not there and
 /// Error(bad_data) for one that is no scene; building throws Error(bad_data) that names all that cannot be read.
 SceneRecipe mitsuba_scene(
-    const std::filesystem::path &file, std::function<void(const std::string &note)> tell = [](const std::string &) {});
+    const std::filesystem::path &file, std::function<void(const std::string &note)> tell = [](const std::string &) {},
+    std::function<void(const std::string &change)> warn = [](const std::string &) {});
 
 } // namespace threefold

@@ -57,6 +57,7 @@ private:
     void mesh(const Node &node);
     void emitter(const Node &node);
     void sensor(const Node &node);
+    void integrator(const Node &node);
     void film(const Node &node, const std::string &fov_axis, double fov);
     void put_glass_together();
     void put_surfaces_together();
@@ -68,6 +69,7 @@ private:
         Vec3 normal{0};
         TwoSides sides;
     };
+    std::pair<double, double> depths_of_view(Vec3 point, Vec3 normal) const;
     int side_of_view(const Flat &flat) const; ///< 1: only its front is seen, -1: only its back, 0: either
     void add_grid(const Flat &flat);
 

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <set>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -23,6 +26,62 @@ constexpr double equal_enough = 1e-9;
 bool close(double a, double b) { return std::abs(a - b) <= equal_enough * std::max(std::abs(a), std::abs(b)); }
 
 Vec3 column(const glm::dmat4 &m, int i) { return Vec3(m[i]); }
+
+bool is_black(const Surface &surface) {
+    if (const auto *d = std::get_if<Diffuse>(&surface)) return greatest_value(d->reflectance) == Rgb(0);
+    if (const auto *e = std::get_if<Emissive>(&surface)) return greatest_value(e->radiance) == Rgb(0);
+    return false;
+}
+
+Vec3 normal_of(const Mesh &mesh, const glm::uvec3 &t) {
+    const Vec3 a = mesh.vertices_mm[t.x];
+    return glm::cross(mesh.vertices_mm[t.y] - a, mesh.vertices_mm[t.z] - a);
+}
+
+const std::shared_ptr<const Texture> *texture_of(const Surface &surface) {
+    const Paint *paint = nullptr;
+    if (const auto *d = std::get_if<Diffuse>(&surface)) paint = &d->reflectance;
+    if (const auto *e = std::get_if<Emissive>(&surface)) paint = &e->radiance;
+    return paint ? std::get_if<std::shared_ptr<const Texture>>(paint) : nullptr;
+}
+
+/// Repeated or ended at its edges, it is the same.
+bool edges_meet(const Texture &t) {
+    const auto at = [&](int x, int y) { return t.rgb.begin() + 3 * (std::ptrdiff_t{y} * t.width + x); };
+    const auto same = [&](int x, int y, int u, int v) { return std::equal(at(x, y), at(x, y) + 3, at(u, v)); };
+    for (int y = 0; y < t.height; ++y)
+        if (!same(0, y, t.width - 1, y)) return false;
+    for (int x = 0; x < t.width; ++x)
+        if (!same(x, 0, x, t.height - 1)) return false;
+    return true;
+}
+
+/// In one plane: then normals of vertices are those of the triangles.
+bool is_flat(const Mesh &mesh) {
+    Vec3 first(0);
+    for (const glm::uvec3 &t : mesh.triangles) {
+        const Vec3 n = normal_of(mesh, t);
+        if (!(glm::length(n) > 0)) continue;
+        if (first == Vec3(0)) first = glm::normalize(n);
+        if (glm::dot(first, glm::normalize(n)) < 1 - equal_enough) return false;
+    }
+    return true;
+}
+
+/// Without a border, its front outside: nobody outside sees its back.
+bool is_closed(const Mesh &mesh) {
+    std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
+    double volume = 0;
+    const Vec3 origin = mesh.vertices_mm.empty() ? Vec3(0) : mesh.vertices_mm.front();
+    for (const glm::uvec3 &t : mesh.triangles) {
+        for (int i = 0; i < 3; ++i)
+            if (!edges.emplace(t[i], t[(i + 1) % 3]).second) return false;
+        volume += glm::dot(mesh.vertices_mm[t.x] - origin, normal_of(mesh, t));
+    }
+    for (const auto &[a, b] : edges)
+        if (!edges.contains({b, a})) return false;
+    return volume > 0;
+}
 
 } // namespace
 
@@ -57,6 +116,9 @@ void Reader::rectangle(const Node &node) {
     const std::optional<TwoSides> sides = painted(p, name);
     p.finish();
     if (!sides) return;
+    if (const auto *texture = texture_of(sides->front); texture && wrap_.contains(name) && !edges_meet(**texture))
+        findings_.change(node, "its picture is repeated in the file, so that half a texel at each edge mixes with the "
+                               "edge across; here pictures end at their edges (wrap_mode clamp)");
     const Vec3 u = column(m, 0), v = column(m, 1);
     if (!(glm::length(u) > 0 && glm::length(v) > 0) ||
         std::abs(glm::dot(u, v)) > equal_enough * glm::length(u) * glm::length(v))
@@ -75,7 +137,7 @@ void Reader::mesh(const Node &node) {
     const glm::dmat4 m = p.transform("to_world").matrix;
     const bool is_obj = p.type() == "obj", flip = p.boolean("flip_tex_coords", is_obj);
     const bool flat = p.boolean("face_normals", false);
-    p.boolean("flip_normals", false);
+    const bool flipped = p.boolean("flip_normals", false);
     p.leave_out({"max_smooth_angle", "collapse", "shape_index"}, "a mesh is flat shaded, and read whole");
     const std::optional<TwoSides> sides = painted(p, name);
     p.finish();
@@ -112,8 +174,11 @@ void Reader::mesh(const Node &node) {
                                                     uv.x, uv.y));
                 break;
             }
-    if (!flat) findings_.note(node, "is flat shaded: normals of its vertices are not used");
-    flats_.push_back({&node, {name, std::move(mesh)}, Vec3(0), *sides});
+    const bool shaded = std::holds_alternative<Diffuse>(sides->front) && !is_black(sides->front);
+    if (!flat && shaded && !is_flat(mesh))
+        findings_.change(node, "is flat shaded: normals of its vertices are not used");
+    // The side that the triangles' winding calls the front.
+    flats_.push_back({&node, {name, std::move(mesh)}, Vec3(0, 0, flipped ? -1 : 1), *sides});
 }
 
 void Reader::put_glass_together() {
@@ -149,11 +214,11 @@ void Reader::put_glass_together() {
             const double share = parameters_.number("thin.wall_share");
             // In the file the tint is on what passes alone; here what the inner surface reflects passes the outer one.
             const double lost = (1 - glass.interface_transmittance) / 2;
-            findings_.note(*outer.node,
-                           fmt::format("a sheet without thickness is taken as a hollow orb whose wall is "
-                                       "{:g} of its radius (thin.wall_share), its tint as that of two surfaces{}",
-                                       share,
-                                       lost > 0 ? fmt::format(": it reflects about {:.2g} % less", 100 * lost) : ""));
+            findings_.change(*outer.node,
+                             fmt::format("a sheet without thickness is taken as a hollow orb whose wall is "
+                                         "{:g} of its radius (thin.wall_share), its tint as that of two surfaces{}",
+                                         share,
+                                         lost > 0 ? fmt::format(": it reflects about {:.2g} % less", 100 * lost) : ""));
             Glass sheet = glass;
             sheet.interface_transmittance = std::sqrt(glass.interface_transmittance);
             scene_.objects.push_back(
@@ -166,21 +231,40 @@ void Reader::put_glass_together() {
     }
 }
 
-int Reader::side_of_view(const Flat &flat) const {
-    const Quad &quad = std::get<Quad>(flat.object.shape);
-    const Vec3 normal = glm::normalize(flat.normal);
-    // Light that reaches the eye comes straight from it, or from glass.
-    double least = glm::dot(scene_.camera.eye_mm - quad.centre_mm, normal), most = least;
+/// How far the eye and all glass stand before a plane, at least and at most: light that reaches the eye comes straight
+/// from the surface, or from glass.
+std::pair<double, double> Reader::depths_of_view(Vec3 point, Vec3 normal) const {
+    double least = glm::dot(scene_.camera.eye_mm - point, normal), most = least;
     if (scene_.camera.projection == Projection::orthographic) {
         const Vec3 forward = glm::normalize(scene_.camera.target_mm - scene_.camera.eye_mm);
         least = most = -glm::dot(forward, normal);
     }
     for (const Object &object : scene_.objects)
         if (const auto orb = outer_sphere(object.shape)) {
-            const double d = glm::dot(orb->centre_mm - quad.centre_mm, normal);
+            const double d = glm::dot(orb->centre_mm - point, normal);
             least = std::min(least, d - orb->radius_mm * (1 - equal_enough));
             most = std::max(most, d + orb->radius_mm * (1 - equal_enough));
         }
+    return {least, most};
+}
+
+int Reader::side_of_view(const Flat &flat) const {
+    double least = std::numeric_limits<double>::infinity(), most = -least;
+    const auto take = [&](Vec3 point, Vec3 normal) {
+        const auto [l, m] = depths_of_view(point, normal);
+        least = std::min(least, l);
+        most = std::max(most, m);
+    };
+    if (const Quad *quad = std::get_if<Quad>(&flat.object.shape)) {
+        take(quad->centre_mm, glm::normalize(flat.normal));
+    } else {
+        const Mesh &mesh = std::get<Mesh>(flat.object.shape);
+        if (flat.normal.z > 0 && is_closed(mesh)) return 1;
+        for (const glm::uvec3 &t : mesh.triangles) {
+            const Vec3 n = normal_of(mesh, t);
+            if (glm::length(n) > 0) take(mesh.vertices_mm[t.x], flat.normal.z * glm::normalize(n));
+        }
+    }
     return least >= 0 ? 1 : most <= 0 ? -1 : 0;
 }
 
@@ -190,17 +274,13 @@ void Reader::put_surfaces_together() {
     for (Flat &flat : flats_) {
         const bool is_quad = std::holds_alternative<Quad>(flat.object.shape);
         int side = 1;
-        const auto *front = std::get_if<Diffuse>(&flat.sides.front);
-        const auto *shining = std::get_if<Emissive>(&flat.sides.front);
-        const bool black = ((front && greatest_value(front->reflectance) == Rgb(0)) ||
-                            (shining && greatest_value(shining->radiance) == Rgb(0))) &&
-                           !flat.sides.grid;
+        const bool black = is_black(flat.sides.front) && is_black(flat.sides.back) && !flat.sides.grid;
         if (!flat.sides.alike && !black) {
-            if (is_quad)
-                side = side_of_view(flat);
-            else
-                findings_.note(*flat.node, "has one side in the file; here both sides are as its front");
-            if (side == 0)
+            side = side_of_view(flat);
+            if (side == 0 && !is_quad)
+                findings_.change(*flat.node, "has one side in the file, and may be seen from both; here both are as "
+                                             "its front");
+            else if (side == 0)
                 findings_.problem(*flat.node, "its two sides differ, and both can be seen: make it twosided");
         }
         Surface shown = side < 0 ? flat.sides.back : flat.sides.front;
@@ -210,7 +290,7 @@ void Reader::put_surfaces_together() {
             continue;
         }
         if (const auto *d = std::get_if<Diffuse>(&shown)) reflects |= greatest_value(d->reflectance) != Rgb(0);
-        if (!std::holds_alternative<Diffuse>(shown) && !black) {
+        if (!is_black(shown) && !std::holds_alternative<Diffuse>(shown)) {
             emits = true;
             emitting = flat.node;
         }

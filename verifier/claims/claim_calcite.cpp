@@ -95,13 +95,13 @@ Calcite calcite_with(const ClaimContext &context, const std::vector<Assignment> 
             std::stod(ordinary.record.parameters.at("criterion.ratio"))};
 }
 
-/// Landing points of both rays in every pixel of the disc. A pixel that shows no card where it must is put as far away
-/// as the card is wide.
+/// Landing points of both rays in every pixel of the disc. A pixel that shows no card where it must is put as far from
+/// the card's middle as the card is wide.
 template <class Ordinary, class Extraordinary>
 std::vector<DoubleLanding> landings_of(const Calcite &c, const Camera &camera, Ordinary ordinary,
                                        Extraordinary extraordinary) {
     const Quad &card = card_of(c.ordinary);
-    const Vec3 normal = glm::cross(card.half_u_mm, card.half_v_mm), lost = card.centre_mm + 4.0 * card.half_u_mm;
+    const Vec3 normal = glm::cross(card.half_u_mm, card.half_v_mm), lost = card.centre_mm + 2.0 * card.half_u_mm;
     std::vector<DoubleLanding> all;
     for (int row = 0; row < camera.image_height_px(); ++row)
         for (int column = 0; column < camera.image_width_px(); ++column) {
