@@ -48,7 +48,7 @@ TEST(TileNoise, ForetellsTheShareOfTilesThatHold) {
         std::vector<Image> others;
         for (unsigned k = 0; k < 5; ++k) others.push_back(noisy(10 + k, 0.4));
         // Grey pictures: the three channels are one.
-        const TileComparison t = compare_tiles(others, exact, tile_px, tolerance, 0.99, true);
+        const TileComparison t = compare_tiles(others, exact, tile_px, tolerance, 0.99, true, first_look);
         const double held = static_cast<double>(t.holding) / (t.columns * t.rows);
         const double foretold = expected_share(tile_noise(noisy(1, 0.4), noisy(2, 0.4), tile_px), 5, tolerance);
         EXPECT_NEAR(held, foretold, 0.02) << tolerance;

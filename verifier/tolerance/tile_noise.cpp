@@ -25,7 +25,7 @@ public:
     explicit ChanceToHold(int replicates) {
         const double freedom = replicates - 1;
         const boost::math::chi_squared spread(freedom);
-        const double t = boost::math::quantile(complement(boost::math::students_t(freedom), significance));
+        const double t = boost::math::quantile(complement(boost::math::students_t(freedom), first_look));
         for (int i = 0; i <= steps; ++i) {
             const double share = std::clamp(static_cast<double>(i) / steps, 1e-9, 1 - 1e-9);
             taken_.at(static_cast<std::size_t>(i)) = t * std::sqrt(boost::math::quantile(spread, share) / freedom);

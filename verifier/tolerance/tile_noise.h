@@ -24,7 +24,7 @@ struct TilesWanted {
 std::vector<double> tile_noise(const Image &a, const Image &b, int tile_px);
 
 /// The share of tiles that a comparison over so many replicates will find to hold, if no tile's true means differ:
-/// Schuirmann's test at `significance`, by Student's t; `deviations` are those of single pictures.
+/// Schuirmann's test at `first_look`, by Student's t; `deviations` are those of single pictures.
 double expected_share(std::span<const double> deviations, int replicates, double tolerance);
 
 /// RenderJob's samples with which that share is `needed_share` and some more, within the bounds wanted. Variance counts

@@ -46,8 +46,8 @@ struct RenderOptions {
     TracerSettings tracer;
     std::chrono::milliseconds time_limit{std::chrono::minutes(10)};
     std::function<void(double share)> on_progress;
+    bool keep = true;             ///< pictures, for a later run; false where the folder goes away
     Sessions *sessions = nullptr; ///< of the calling thread: programs that are already running
-    bool keep = true; ///< pictures, for a later run; false where the folder goes away
 };
 
 struct Rendered {
