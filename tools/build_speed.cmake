@@ -41,3 +41,28 @@ function(threefold_unity target)
     set_source_files_properties(${source} TARGET_DIRECTORY ${target} PROPERTIES UNITY_GROUP ${group})
   endforeach()
 endfunction()
+
+# Headers that nearly every source reads, with their share of a source's front end. With whole folders in a unit they are
+# read seldom enough. What is exported or installed does not carry them.
+set(threefold_common_headers <algorithm> <array> <cmath> <cstdint> <filesystem> <fstream> <functional> <limits> <map> <memory>
+    <numbers> <optional> <set> <span> <string> <string_view> <utility> <variant> <vector>
+    <fmt/format.h> <glm/common.hpp> <glm/geometric.hpp> <glm/vec2.hpp> <glm/vec3.hpp>)
+function(threefold_precompiled target)
+  if(NOT THREEFOLD_PRECOMPILED OR THREEFOLD_UNITY)
+    return()
+  elseif(target STREQUAL threefold_scenes)
+    target_precompile_headers(${target} PRIVATE ${threefold_common_headers})
+  else()
+    target_precompile_headers(${target} REUSE_FROM threefold_scenes)
+  endif()
+endfunction()
+function(threefold_precompiled_tests target)
+  if(NOT THREEFOLD_PRECOMPILED)
+    return()
+  elseif(target STREQUAL threefold_tests)
+    target_precompile_headers(${target} PRIVATE ${threefold_common_headers} <random> <sstream> <gmock/gmock.h>
+      <gtest/gtest.h> <nlohmann/json.hpp> <rapidcheck/gtest.h>)
+  else()
+    target_precompile_headers(${target} REUSE_FROM threefold_tests)
+  endif()
+endfunction()

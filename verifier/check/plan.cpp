@@ -22,8 +22,7 @@ void require_known(const std::vector<Assignment> &assignments, const std::vector
             for (const Experiment &e : p.experiments)
                 for (const auto &[name, value] : e.record.parameters) valid.push_back(name);
         std::ranges::sort(valid);
-        const auto repeated = std::ranges::unique(valid);
-        valid.erase(repeated.begin(), repeated.end());
+        valid.erase(std::unique(valid.begin(), valid.end()), valid.end()); // not of std::ranges, for Clang 14
         if (!std::ranges::binary_search(valid, a.name))
             throw Error(Exit::usage, unknown_name("parameter", a.name, valid));
     }

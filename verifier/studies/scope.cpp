@@ -26,8 +26,7 @@ void require_known(const ScopeRequest &request) {
     for (const SceneRecipe &scene : request.scenes)
         for (const ParameterSpec &p : scene.parameters) valid.push_back(p.name);
     std::ranges::sort(valid);
-    const auto repeated = std::ranges::unique(valid);
-    valid.erase(repeated.begin(), repeated.end());
+    valid.erase(std::unique(valid.begin(), valid.end()), valid.end()); // not of std::ranges, for Clang 14
     for (const Assignment &a : request.assignments)
         if (!std::ranges::binary_search(valid, a.name))
             throw Error(Exit::usage, unknown_name("parameter", a.name, valid));

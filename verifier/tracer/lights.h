@@ -38,8 +38,8 @@ public:
                               l.irradiance.b);
         };
         std::ranges::sort(all_, {}, key);
-        const auto doubled = std::ranges::unique(all_, {}, key);
-        all_.erase(doubled.begin(), doubled.end());
+        const auto same = [&](const Light &a, const Light &b) { return key(a) == key(b); };
+        all_.erase(std::unique(all_.begin(), all_.end(), same), all_.end()); // not of std::ranges, for Clang 14
         for (std::size_t i = 0; i < all_.size(); ++i) all_[i].number = static_cast<std::uint32_t>(i);
         for (std::vector<Light> &share : shares_)
             for (Light &light : share) light.number = std::ranges::lower_bound(all_, key(light), {}, key)->number;
