@@ -44,7 +44,13 @@ std::string try_out(const Shop &shop, const Witness &witness, const std::filesys
         RenderJob job;
         job.scene = scene_of(shop, {shop.scenes.front().name, "text", {}, "16x16"});
         job.samples_per_pixel = 1;
-        render(witness, job, {folder, "doctor", {}, std::chrono::seconds(120), {}, false});
+        render(witness, job,
+               {.folder = folder,
+                .label = "doctor",
+                .tracer = {},
+                .time_limit = std::chrono::seconds(120),
+                .on_progress = {},
+                .keep = false});
         return "";
     } catch (const Error &error) {
         return error.what();

@@ -86,8 +86,12 @@ Exit command_render(const Shop &shop, const RenderRequest &request) {
                 return within->rendered;
             }
             return render(witness, job,
-                          {request.keep.value_or(temporary.path()), label, tracer, time_limit,
-                           [&](double share) { progress.update(witness.name, share, label); }, request.keep.has_value()});
+                          {.folder = request.keep.value_or(temporary.path()),
+                           .label = label,
+                           .tracer = tracer,
+                           .time_limit = time_limit,
+                           .on_progress = [&](double share) { progress.update(witness.name, share, label); },
+                           .keep = request.keep.has_value()});
         } catch (const Error &error) {
             // The log goes away with the temporary folder.
             if (request.keep || !witness.adapter || !error.hint().empty()) throw;
