@@ -14,6 +14,7 @@
 #include "tools/commands.h"
 #include "tools/progress.h"
 #include "verifier/check/check.h"
+#include "verifier/check/look.h"
 #include "verifier/check/plan.h"
 #include "verifier/report/html.h"
 #include "verifier/report/json.h"
@@ -90,8 +91,9 @@ void print_plan(const CheckRequest &request) {
             if (e.inspect)
                 fmt::print("  {:<24} scene {:<20} nothing to render\n", e.name, e.record.scene);
             else
-                fmt::print("  {:<24} scene {:<20} {} x {} px, {} replicates\n", e.name, e.record.scene,
-                           e.scene.camera.image_width_px(), e.scene.camera.image_height_px(), e.replicates);
+                fmt::print("  {:<24} scene {:<20} {} x {} px, {} replicates at first\n", e.name, e.record.scene,
+                           e.scene.camera.image_width_px(), e.scene.camera.image_height_px(),
+                           first_replicates({}, e, planned.experiments));
     }
 }
 
