@@ -20,6 +20,16 @@ double radiance_of(int code) { return std::pow((code / 255.0 + 0.055) / 1.055, 2
 
 Image grey(int width, int height, int code) { return Image(width, height, Rgb(radiance_of(code))); }
 
+TEST(FalseAlarms, OfNoneInFortyRunsTheRateIsUnderSevenPercentWithNinetyFivePercentConfidence) {
+    EXPECT_NEAR(FalseAlarms::upper_bound(0, 40), 1 - std::pow(0.05, 1.0 / 40), 1e-12);
+    EXPECT_NEAR(FalseAlarms::upper_bound(0, 40), 0.072, 0.0005);
+    // That or fewer alarms happen in 5 % of all sets of runs, were the rate the bound.
+    const double p = FalseAlarms::upper_bound(2, 40), q = 1 - p;
+    EXPECT_NEAR(std::pow(q, 40) + 40 * p * std::pow(q, 39) + 780 * p * p * std::pow(q, 38), 0.05, 1e-9);
+    EXPECT_EQ(FalseAlarms::upper_bound(3, 3), 1);
+    EXPECT_EQ(FalseAlarms::upper_bound(0, 0), 1);
+}
+
 TEST(Idiff, CountsPixelsThatDifferByMoreThanFourCodes) {
     // 4 / 255 = 0.0157 is within 0.016, 5 / 255 = 0.0196 is not.
     const Image reference = grey(10, 10, 128);

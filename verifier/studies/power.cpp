@@ -7,6 +7,7 @@
 #include <set>
 #include <system_error>
 
+#include <boost/math/distributions/beta.hpp>
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
@@ -206,6 +207,12 @@ private:
 };
 
 } // namespace
+
+double FalseAlarms::upper_bound(int alarms, int runs) {
+    if (alarms >= runs) return 1;
+    constexpr double confidence = 0.95;
+    return boost::math::quantile(boost::math::beta_distribution<>(alarms + 1, runs - alarms), confidence);
+}
 
 Verdict PowerResult::verdict() const {
     const bool all_caught = std::ranges::all_of(rows, [](const PowerRow &row) { return row.caught(); });

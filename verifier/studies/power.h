@@ -52,6 +52,10 @@ struct PowerRow {
 
 /// Of runs without a fault.
 struct FalseAlarms {
+    /// What the rate of false alarms is under, with 95 % confidence (Clopper and Pearson 1934, one-sided), when
+    /// `alarms` of `runs` were such; 1 where there was no run.
+    static double upper_bound(int alarms, int runs);
+
     int runs = 0;
     int ours = 0, undecided = 0, idiff = 0, rms = 0, z_test = 0;
     std::vector<std::string> failing_claims; ///< one entry an alarm and claim

@@ -54,7 +54,9 @@ Table fault_table(const PowerResult &result) {
 
 Table alarm_table(const FalseAlarms &f) {
     const auto share = [&f](int count) {
-        return f.runs > 0 ? fmt::format("{} of {} ({:.1f} %)", count, f.runs, 100.0 * count / f.runs) : "-";
+        return f.runs > 0 ? fmt::format("{} of {} ({:.1f} %, under {:.1f} %)", count, f.runs, 100.0 * count / f.runs,
+                                        100 * FalseAlarms::upper_bound(count, f.runs))
+                          : "-";
     };
     return {{"runs without a fault", "our check", "idiff 0.016/1 %", "RMS -22 dB", "z-test"},
             {"fail", share(f.ours), share(f.idiff), share(f.rms), share(f.z_test)},
@@ -71,7 +73,10 @@ std::string conclusion(const PowerResult &result) {
                                      result.rows.size() - missed.size(), result.rows.size(), fmt::join(missed, ", "));
     const FalseAlarms &f = result.false_alarms;
     text += f.runs > 0
-                ? fmt::format("; {} of {} runs without a fault fail, {} are undecided.", f.ours, f.runs, f.undecided)
+                ? fmt::format(
+                      "; {} of {} runs without a fault fail (the rate is under {:.1f} % with 95 % confidence), {} are "
+                      "undecided.",
+                      f.ours, f.runs, 100 * FalseAlarms::upper_bound(f.ours, f.runs), f.undecided)
                 : "; no run without a fault was made.";
     if (!result.honest_failures.empty())
         text += fmt::format(" These claims fail without any fault, and catch nothing: {}.",
@@ -135,6 +140,7 @@ Json to_json(const PowerResult &result) {
             {"false_alarms",
              {{"runs", f.runs},
               {"ours", f.ours},
+              {"ours_upper_bound", FalseAlarms::upper_bound(f.ours, f.runs)},
               {"undecided", f.undecided},
               {"idiff", f.idiff},
               {"rms", f.rms},
@@ -169,7 +175,7 @@ std::string to_markdown(const PowerResult &result) {
         result.resolution, result.precision == "float" ? "single" : "double");
     out += markdown(alarm_table(result.false_alarms));
     out += fmt::format(
-        "\nOnly the seed of {} changes from run to run.\n\n"
+        "\nOnly the seed of {} changes from run to run. \"Under\": with 95 % confidence, by Clopper and Pearson.\n\n"
         "## The other judges\n\n"
         "They look at one picture each of {} (64 samples a pixel, glass that takes 11 % at each surface, longest side "
         "128 px), against the mean of 16 honest pictures of other seeds. One that fails in any scene has caught the "
