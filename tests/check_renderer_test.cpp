@@ -231,8 +231,9 @@ TEST(Killed, AtAnyMomentGoesOnWhereItStoppedAndFindsTheSame) {
         wait_for(pid);
         expect_no_orphans(folder.path());
         EXPECT_FALSE(fs::exists(folder.path() / "result.json"));
-        if (fs::exists(folder.path() / "report.html"))
+        if (fs::exists(folder.path() / "report.html")) {
             EXPECT_THAT(read_file(folder.path() / "report.html"), testing::HasSubstr("Running: 1 of 2 claims judged"));
+        }
     }
     EXPECT_EQ(WEXITSTATUS(wait_for(start_check(folder.path()))), 0);
     const auto resumed = nlohmann::ordered_json::parse(read_file(folder.path() / "result.json"));
