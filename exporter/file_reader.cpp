@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include <sys/stat.h>
+
 #include "exporter/image/texture_file.h"
 #include "exporter/mesh/mesh_file.h"
 
@@ -21,8 +23,11 @@ namespace fs = std::filesystem;
 /// A file as it was when it was read.
 struct Version {
     std::string path; ///< absolute
-    std::uintmax_t bytes;
-    fs::file_time_type changed;
+    // Two files written within one tick of the clock may be of one size and time; the second one is another file.
+    dev_t device;
+    ino_t number;
+    off_t bytes;
+    std::int64_t changed_s, changed_ns;
     double gamma = 0;
 
     auto operator<=>(const Version &) const = default;
@@ -30,11 +35,12 @@ struct Version {
 
 /// Nothing where the file cannot be looked at: its reader says why.
 std::optional<Version> version_of(const std::string &path, double gamma = 0) {
-    std::error_code bad_path, bad_size, bad_time;
-    Version version{fs::absolute(path, bad_path).string(), fs::file_size(path, bad_size),
-                    fs::last_write_time(path, bad_time), gamma};
-    if (bad_path || bad_size || bad_time) return std::nullopt;
-    return version;
+    std::error_code bad_path;
+    const std::string absolute = fs::absolute(path, bad_path).string();
+    struct stat found {};
+    if (bad_path || ::stat(path.c_str(), &found) != 0) return std::nullopt;
+    return Version{absolute, found.st_dev, found.st_ino, found.st_size, found.st_mtim.tv_sec, found.st_mtim.tv_nsec,
+                   gamma};
 }
 
 /// A claim builds its scene a dozen times. Only the last few files are kept: a picture may be as large as memory.

@@ -199,6 +199,19 @@ TEST(Cli, WithoutTheOthersACheckIsUndecidedSaysWhichAreMissingAndTheTracerStillA
     EXPECT_TRUE(tracer_answers);
 }
 
+TEST(Cli, WhatTheTracerRefusesLeavesOutOneExperimentAndNotTheRun) {
+    const tests::TemporaryFolder folder;
+    const Answer answer =
+        run(folder, "check --quick --with tracer palm salvator --set hand.drop_mm=-5 -o report --json -");
+    EXPECT_EQ(answer.exit_code, 2) << answer.err;
+    const auto json = nlohmann::json::parse(answer.out);
+    EXPECT_THAT(json.at("summary").get<std::string>(), HasSubstr("gave no picture of salvator-"));
+    for (const auto &claim : json.at("claims"))
+        if (claim.at("name") != "salvator") {
+            EXPECT_EQ(claim.at("verdict"), "holds") << claim.at("name");
+        }
+}
+
 TEST(Cli, CheckWritesReportJsonAndJunit) {
     const tests::TemporaryFolder folder;
     const Answer answer = run(folder, "check --quick --with tracer -o report --junit j.xml --json r.json");

@@ -40,6 +40,34 @@ TEST(SecondLook, BothLooksTogetherSayHoldsOfANumberAtTheEdgeInAtMostFivePercent)
     EXPECT_LT(holds, trials * significance + 4 * std::sqrt(trials * significance * (1 - significance)));
 }
 
+TEST(SecondLook, BothLooksTogetherSayFailsWithoutADifferenceInAtMostFivePercentHoweverSmallTheTolerance) {
+    for (const double tolerance : {1e-12, 0.003, 0.01, 0.05})
+        for (const int replicates : {4, 8, 16}) {
+            std::mt19937_64 random(3);
+            std::normal_distribution<double> noise(1, 0.05);
+            int fails = 0;
+            constexpr int trials = 2000;
+            for (int trial = 0; trial < trials; ++trial) {
+                std::vector<double> values(static_cast<std::size_t>(replicates));
+                for (double &v : values) v = noise(random);
+                const auto row_of_values = [&](double level) {
+                    Row row = row_of("e", "w", {"q", "", Relation::equal, 1, {{"all", tolerance, ""}}});
+                    row.measured = estimate(values);
+                    row.level = level;
+                    return judged(row);
+                };
+                Row row = row_of_values(first_look);
+                if (const int wanted = replicates_for_second_look("w", replicates, {row})) {
+                    while (static_cast<int>(values.size()) < wanted) values.push_back(noise(random));
+                    row = row_of_values(second_look);
+                }
+                fails += row.verdict == Verdict::fails;
+            }
+            EXPECT_LT(fails, trials * significance + 4 * std::sqrt(trials * significance * (1 - significance)))
+                << tolerance << ", " << replicates << " replicates";
+        }
+}
+
 TEST(SecondLook, IsNotTakenWhereNothingIsOpenOrNoNumberOfReplicatesWouldDo) {
     const Row decided = row_at({1, 1.01, 0.99, 1.02, 0.98}, first_look);
     ASSERT_EQ(decided.verdict, Verdict::holds);

@@ -53,7 +53,7 @@ protected:
 
 TEST_F(BlenderSession, RendersToTheLastBitWhatABlenderOfItsOwnRenders) {
     ASSERT_TRUE(installed_) << "Blender is missing";
-    const RenderJob hollow = job_of("hollow", "32"), lit = job_of("lit-orb", "40");
+    const RenderJob hollow = job_of("hollow", "32"), lit = job_of("soft-light", "40");
     Sessions sessions;
     const RunOutcome first = render(hollow, "a", &sessions), other = render(lit, "b", &sessions),
                      again = render(hollow, "it's \"c\"\n", &sessions);

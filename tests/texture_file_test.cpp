@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "exporter/file_reader.h"
 #include "exporter/files.h"
 #include "exporter/image/image_io.h"
 #include "exporter/image/texture_file.h"
@@ -33,6 +34,19 @@ TEST(TextureFile, SixteenBitSamplesComeBackAsTheyStandWithGammaOne) {
     EXPECT_EQ(*read_texture(folder / "t.png", 1), texture);
     EXPECT_EQ(*read_texture(folder / "t.png", 0), texture) << "the file declares that it is linear";
     EXPECT_EQ(read_texture(folder / "t.png", 3)->rgb[3], std::lround(65535 * std::pow(30000 / 65535.0, 3)));
+}
+
+TEST(TextureFile, WrittenAnewWithinOneTickOfTheClockIsReadAnew) {
+    const tests::TemporaryFolder folder;
+    const auto path = folder / "t.png";
+    write_file_atomically(path, encode_png16({1, 1, {1, 2, 3}}));
+    const auto time = std::filesystem::last_write_time(path);
+    const auto size = std::filesystem::file_size(path);
+    EXPECT_EQ(file_reader().texture(path.string(), 1)->rgb[0], 1);
+    write_file_atomically(path, encode_png16({1, 1, {4, 2, 3}}));
+    std::filesystem::last_write_time(path, time);
+    ASSERT_EQ(std::filesystem::file_size(path), size);
+    EXPECT_EQ(file_reader().texture(path.string(), 1)->rgb[0], 4);
 }
 
 TEST(TextureFile, AnEightBitPictureIsSrgbUnlessAGammaIsGiven) {

@@ -90,6 +90,13 @@ Verdict judge(const Interval &m, Relation relation, double value, double toleran
     return Verdict::undecided;
 }
 
+Verdict judge(const Estimate &m, Relation relation, double value, double tolerance, double level) {
+    const Verdict verdict = judge(interval(m, level), relation, value, tolerance);
+    if (relation == Relation::equal && verdict == Verdict::fails && p_value_of_difference(m, value, tolerance) > level)
+        return Verdict::undecided;
+    return verdict;
+}
+
 std::optional<int> replicates_to_decide(const Estimate &m, Relation relation, double value, double tolerance,
                                         double level) {
     const double from_edge =
@@ -98,7 +105,9 @@ std::optional<int> replicates_to_decide(const Estimate &m, Relation relation, do
     if (m.standard_error == 0) return m.replicates;
     const double spread = m.standard_error * std::sqrt(static_cast<double>(m.replicates));
     for (double n = m.replicates; n <= 1e6; n = std::ceil(n * 1.1))
-        if (quantile(n - 1, level) * spread / std::sqrt(n) < from_edge) return static_cast<int>(n);
+        if (judge(Estimate{m.mean, spread / std::sqrt(n), n - 1, static_cast<int>(n)}, relation, value, tolerance,
+                  level) != Verdict::undecided)
+            return static_cast<int>(n);
     return std::nullopt;
 }
 
@@ -106,7 +115,9 @@ double p_value_of_difference(const Estimate &m, double value, double tolerance) 
     const double excess = std::abs(m.mean - value) - tolerance;
     if (std::isnan(excess)) return 1;
     if (m.standard_error == 0) return excess > 0 ? 0 : 1;
-    return boost::math::cdf(complement(boost::math::students_t(m.degrees_of_freedom), excess / m.standard_error));
+    const boost::math::students_t t(m.degrees_of_freedom);
+    const auto beyond = [&](double distance) { return boost::math::cdf(complement(t, distance / m.standard_error)); };
+    return std::min(1.0, beyond(excess) + beyond(excess + 2 * tolerance));
 }
 
 bool any_differs(std::vector<double> p_values, double level) {

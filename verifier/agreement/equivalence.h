@@ -47,12 +47,16 @@ enum class Relation { equal, below, above };
 std::string_view to_string(Relation relation);
 
 Verdict judge(const Interval &measured, Relation relation, double value, double tolerance);
+/// The same of an estimate, each verdict wrong no more often than `level`: `equal` fails on either side of the
+/// tolerance, so that its interval alone would say so of no difference at all twice as often, were the tolerance small.
+Verdict judge(const Estimate &measured, Relation relation, double value, double tolerance, double level);
 
 /// How many replicates in all would decide, if mean and spread stay as they are; empty when no number would.
 std::optional<int> replicates_to_decide(const Estimate &measured, Relation relation, double value, double tolerance,
                                         double level = significance);
 
-/// One-sided p-value of "the true mean is not outside value +- tolerance"; small means that it differs.
+/// p-value of "the true mean is not outside value +- tolerance", on either side; small means that it differs. The worst
+/// case counts, a true mean on the edge.
 double p_value_of_difference(const Estimate &measured, double value, double tolerance);
 /// Holm's step-down test (1979): does any of these differ, at the family level `level`?
 bool any_differs(std::vector<double> p_values, double level = significance);

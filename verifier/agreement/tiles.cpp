@@ -35,7 +35,7 @@ TileComparison judge_tiles(int columns, int rows, int tile_px, double tolerance,
         double needed = 0;
         for (int channel = 0; channel < 3; ++channel) {
             const Estimate d = difference_of(static_cast<std::size_t>(tile), channel);
-            const Verdict v = judge(interval(d, level), Relation::equal, 0, tolerance);
+            const Verdict v = judge(d, Relation::equal, 0, tolerance, level);
             verdict = all_of(verdict, v);
             p_values.push_back(p_value_of_difference(d, 0, tolerance));
             if (v == Verdict::undecided) {

@@ -99,7 +99,7 @@ Row row_of(const std::string &experiment, const std::string &witness, const Expe
 Row judged(Row row) {
     row.tolerance = total(row.budget);
     row.interval = interval(row.measured, row.level);
-    row.verdict = judge(row.interval, row.relation, row.expected, row.tolerance);
+    row.verdict = judge(row.measured, row.relation, row.expected, row.tolerance, row.level);
     if (row.verdict == Verdict::undecided)
         row.replicates_to_decide =
             replicates_to_decide(row.measured, row.relation, row.expected, row.tolerance, row.level);
