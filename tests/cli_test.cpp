@@ -202,7 +202,7 @@ TEST(Cli, WithoutTheOthersACheckIsUndecidedSaysWhichAreMissingAndTheTracerStillA
 TEST(Cli, WhatTheTracerRefusesLeavesOutOneExperimentAndNotTheRun) {
     const tests::TemporaryFolder folder;
     const Answer answer =
-        run(folder, "check --quick --with tracer palm salvator --set hand.drop_mm=-5 -o report --json -");
+        run(folder, "check --quick --with tracer rim-reads-wall salvator --set hand.drop_mm=-5 -o report --json -");
     EXPECT_EQ(answer.exit_code, 2) << answer.err;
     const auto json = nlohmann::json::parse(answer.out);
     EXPECT_THAT(json.at("summary").get<std::string>(), HasSubstr("gave no picture of salvator-"));
