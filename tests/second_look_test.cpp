@@ -133,6 +133,27 @@ TEST(SecondLook, OfPicturesSettlesWhatTheFirstLeavesOpenAndIsTakenByTheNoisyRend
     EXPECT_EQ(compare_tiles(others, exact, 8, 0.05, 1, false, second_look).verdict, Verdict::holds);
 }
 
+TEST(SecondLook, CountsWhereOneOfTwoRenderersRenderedMore) {
+    const auto row = [](const char *witness, const char *versus, Verdict verdict, int replicates) {
+        Row r = row_of("e", witness, {"q", "", Relation::equal, 1, {}});
+        r.versus = versus;
+        r.verdict = verdict;
+        r.measured.replicates = replicates; // of a difference, the fewer of both
+        return r;
+    };
+    using enum Verdict;
+    std::vector<Row> rows{row("quiet", "", holds, 4), row("noisy", "", undecided, 4),
+                          row("quiet", "noisy", undecided, 4), row("quiet", "third", undecided, 4)};
+    take_second_look(rows,
+                     {row("quiet", "", undecided, 4), row("noisy", "", holds, 9), row("quiet", "noisy", holds, 4),
+                      row("quiet", "third", holds, 4)},
+                     {"noisy"});
+    EXPECT_EQ(rows[0].verdict, holds) << "what is decided stays";
+    EXPECT_EQ(rows[1].verdict, holds);
+    EXPECT_EQ(rows[2].verdict, holds) << "though the quiet one has no more than before";
+    EXPECT_EQ(rows[3].verdict, undecided) << "neither rendered more: the first look's level counts";
+}
+
 /// The first look leaves brackets open that lie so near to what a sharp eye resolves.
 TEST(SecondLook, SettlesWhatTheFirstLeavesOpen) {
     const tests::TemporaryFolder folder;

@@ -54,6 +54,7 @@ struct Trial {
     std::vector<Testimony> testimonies{};
     int awaited = 0; ///< renders that have not ended
     bool second = false, judged = false;
+    std::set<std::string> rendered_more{}; ///< renderers with a second look
     std::vector<Row> rows{};
     std::vector<TileComparison> tiles{};
     std::vector<ReportPicture> pictures{};
@@ -173,9 +174,10 @@ private:
             if (w.is_tracer()) result_.tracer_seconds += record.seconds;
         }
         const auto before = std::ranges::find(trial.testimonies, &w, &Testimony::witness);
-        if (before != trial.testimonies.end())
+        if (before != trial.testimonies.end()) {
             std::ranges::move(rendered.images, std::back_inserter(before->rendered.images));
-        else
+            trial.rendered_more.insert(w.name);
+        } else
             trial.testimonies.push_back({&w, std::move(rendered), seed_of(w), samples_per_pixel});
         std::ranges::sort(trial.testimonies, {}, &Testimony::witness); // as in the request
     }
@@ -243,8 +245,8 @@ private:
             trial.tiles = std::move(tiles);
             if (add_second_look(queue, number)) return;
         } else {
-            keep_what_is_decided(trial.rows, std::move(rows), [](const Row &row) { return row.measured.replicates; });
-            keep_what_is_decided(trial.tiles, std::move(tiles), [](const TileComparison &t) { return t.replicates; });
+            take_second_look(trial.rows, std::move(rows), trial.rendered_more);
+            take_second_look(trial.tiles, std::move(tiles), trial.rendered_more);
         }
         trial.judged = true;
         trial.pictures = report_pictures(e, trial.testimonies, trial.tiles);
@@ -255,14 +257,6 @@ private:
     bool is_partner(const Trial &trial) const {
         return std::ranges::any_of(plan_[trial.claim].experiments,
                                    [&](const Experiment &e) { return e.partner == trial.experiment->name; });
-    }
-
-    /// The first look's verdicts stay; what it left undecided is that of the second, where that had more replicates.
-    template <class Judged, class Replicates>
-    static void keep_what_is_decided(std::vector<Judged> &first, std::vector<Judged> second, Replicates replicates) {
-        for (std::size_t i = 0; i < first.size(); ++i)
-            if (first[i].verdict == Verdict::undecided && replicates(second[i]) > replicates(first[i]))
-                first[i] = std::move(second[i]);
     }
 
     /// More replicates of what is undecided. False where there is nothing more to look at.

@@ -2,8 +2,11 @@
 // The numbers of one experiment: what every witness's replicates say, beside the closed form and beside each other.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "verifier/agreement/result.h"
@@ -37,5 +40,16 @@ std::vector<Row> judged_rows(const Experiment &e, const std::vector<Testimony> &
 int replicates_for_second_look(const std::string &witness, int replicates, const std::vector<Row> &rows);
 /// The same of its pictures. `tiles`: judged at `second_look`.
 int replicates_for_second_look(const std::string &witness, int replicates, const std::vector<TileComparison> &tiles);
+
+/// The first look's verdicts stay; what it left undecided is as the second look has it, where one of its renderers did
+/// render more. `Judged`: Row or TileComparison; both looks have the same ones in the same order.
+template <class Judged>
+void take_second_look(std::vector<Judged> &first, std::vector<Judged> second,
+                      const std::set<std::string> &rendered_more) {
+    for (std::size_t i = 0; i < first.size(); ++i)
+        if (first[i].verdict == Verdict::undecided &&
+            (rendered_more.contains(first[i].witness) || rendered_more.contains(first[i].versus)))
+            first[i] = std::move(second[i]);
+}
 
 } // namespace threefold
