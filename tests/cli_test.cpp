@@ -307,7 +307,7 @@ TEST(Cli, StopsInsideAPixelOfVeryManySamples) {
                                 "solid --size 4x4 --spp 536870912 --set environment.radiance=1 image.orb_share=0.01",
                                 "setup --size 4x4 --spp 500000000", "furnace --size 4x4 --spp 500000000"}) {
         const Answer answer = run(folder, std::string("render ") + options + " --threads 1 -q -o a.exr",
-                                  "timeout --preserve-status -k 20 1");
+                                  "timeout --foreground --preserve-status -k 20 1");
         EXPECT_EQ(answer.exit_code, 130) << options << answer.err;
         EXPECT_THAT(answer.err, HasSubstr("interrupted")) << options;
         EXPECT_FALSE(fs::exists(folder / "a.exr")) << options;
