@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cerrno>
 #include <condition_variable>
+#include <cstdint>
 #include <exception>
 #include <fstream>
 #include <mutex>
@@ -73,7 +74,9 @@ public:
         done_.reset();
         begin_cpu_seconds_.reset();
         const double cpu_before = jobs_++ == 0 ? 0 : used_cpu_seconds_;
-        const std::string line = nlohmann::json(fs::absolute(job.folder).string()).dump() + "\n";
+        // As bytes: a folder's name need not be UTF-8, and JSON's text must be.
+        const std::string folder = fs::absolute(job.folder).string();
+        const std::string line = nlohmann::json(std::vector<std::uint8_t>(folder.begin(), folder.end())).dump() + "\n";
         if (!write_all(write_end_.number(), line)) throw Error(Exit::internal, "cannot write to a renderer's pipe");
         const bool in_time =
             changed_.wait_for(lock, job.time_limit, [this] { return done_.has_value() || program_.has_value(); });

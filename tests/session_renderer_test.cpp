@@ -56,7 +56,7 @@ TEST_F(BlenderSession, RendersToTheLastBitWhatABlenderOfItsOwnRenders) {
     const RenderJob hollow = job_of("hollow", "32"), lit = job_of("soft-light", "40");
     Sessions sessions;
     const RunOutcome first = render(hollow, "a", &sessions), other = render(lit, "b", &sessions),
-                     again = render(hollow, "it's \"c\"\n", &sessions);
+                     again = render(hollow, "it's \"c\"\n\xff", &sessions);
     const RunOutcome alone = render(hollow, "alone", nullptr), lit_alone = render(lit, "lit alone", nullptr);
     ASSERT_EQ(alone.images.size(), 2u);
     for (std::size_t k = 0; k < 2; ++k) {

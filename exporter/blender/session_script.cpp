@@ -11,7 +11,7 @@ constexpr std::string_view python = R"python(
 import json, os, runpy, sys, traceback
 import bpy
 for number, line in enumerate(sys.stdin):
-    folder = json.loads(line)
+    folder = os.fsdecode(bytes(json.loads(line)))
     try:
         if number > 0:
             bpy.ops.wm.read_factory_settings()

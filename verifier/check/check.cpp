@@ -58,6 +58,7 @@ struct Trial {
     std::vector<Row> rows{};
     std::vector<TileComparison> tiles{};
     std::vector<ReportPicture> pictures{};
+    std::vector<RenderRecord> renders{};
 };
 
 /// Every experiment's renders go into one queue, in the order of the claims. What ends is judged at once; what is then
@@ -79,7 +80,7 @@ public:
         make_folder(request_.folder); // not before the scenes are known to be good
 
         render_all();
-        for (const Trial &trial : trials_) gather_renders(trial);
+        for (Trial &trial : trials_) gather_renders(trial);
         conclude_run(result_, refusals_);
         if (exit_ != Exit::timed_out)
             exit_ = result_.verdict == Verdict::holds   ? Exit::holds
@@ -168,7 +169,7 @@ private:
         RenderRecord record = rendered.record;
         record.experiment = trial.experiment->name;
         record.preset = to_string(plan_[trial.claim].context.preset);
-        renders_[&trial].push_back(record);
+        trial.renders.push_back(record);
         if (!record.from_cache) {
             record_of_witness(w).seconds += record.seconds;
             if (w.is_tracer()) result_.tracer_seconds += record.seconds;
@@ -183,12 +184,11 @@ private:
     }
 
     /// In the order of the plan, whatever ended first.
-    void gather_renders(const Trial &trial) {
-        auto &records = renders_[&trial];
-        std::ranges::stable_sort(records, {}, [&](const RenderRecord &r) {
+    void gather_renders(Trial &trial) {
+        std::ranges::stable_sort(trial.renders, {}, [&](const RenderRecord &r) {
             return std::ranges::find(request_.witnesses, r.witness, &Witness::name) - request_.witnesses.begin();
         });
-        std::ranges::move(records, std::back_inserter(result_.renders));
+        std::ranges::move(trial.renders, std::back_inserter(result_.renders));
     }
 
     void note_failure(RenderQueue &queue, const Witness &w, const Trial &trial, const std::exception_ptr &failure) {
@@ -365,7 +365,6 @@ private:
     const std::vector<PlannedClaim> plan_;
     std::vector<std::optional<ClaimResult>> results_; ///< of the plan's claims
     std::vector<Trial> trials_;                       ///< in the order of the plan; not resized while rendering
-    std::map<const Trial *, std::vector<RenderRecord>> renders_;
     std::map<std::pair<std::size_t, std::string>, double> works_; ///< of the render at work, by trial and renderer
     RunResult result_;
     Exit exit_ = Exit::holds;
