@@ -24,14 +24,14 @@ function(expect text part)
   endif()
 endfunction()
 
-# No path into the source or the build tree, but for our own folder in it.
+# No path into the source or the build tree, but for our own folder in it. A path begins after a space, a quote or the
+# like: the tree may be /threefold, and an installed .../include/threefold/ is none of its folders.
 function(expect_independent what text)
   string(REPLACE ${WORK} "" text "${text}")
   foreach(tree ${SOURCE} ${BUILD})
-    string(FIND "${text}" "${tree}/" at)
-    if(NOT at EQUAL -1)
-      string(SUBSTRING "${text}" ${at} 200 where)
-      message(FATAL_ERROR "${what} names the tree that Threefold was built in: ${where}")
+    string(REGEX REPLACE "([][+.*()^$?|\\\\])" "\\\\\\1" pattern "${tree}")
+    if("${text}" MATCHES "(^|[ \t\n\"'=:;(]|-[ILB])(${pattern}/[^ \t\n\"]*)")
+      message(FATAL_ERROR "${what} names the tree that Threefold was built in: ${CMAKE_MATCH_2}")
     endif()
   endforeach()
 endfunction()
