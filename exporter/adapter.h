@@ -35,6 +35,8 @@ struct Adapter {
     int sample_factor = 1;
     /// The line after which the program does nothing but render: reading and building are over. May be null.
     bool (*rendering_begins)(std::string_view line) = nullptr;
+    /// It sleeps between the pictures of one process: another render may use its core meanwhile.
+    bool sleeps_between_pictures = false;
     /// Arguments with which the program renders one job after another (exporter/session.h): its stdin gives a line of
     /// JSON for each, the folder that holds the job's files. May be null: it cannot.
     std::vector<std::string> (*session_arguments)() = nullptr;

@@ -86,13 +86,17 @@ TEST(ReplicatesToDecide, AreEnoughIfNothingChanges) {
     EXPECT_FALSE(replicates_to_decide({1.2, 0.2, 7, 8}, Relation::equal, 1, 0.2)) << "on the edge no number decides";
 }
 
-TEST(Holm, FindsOneGreatDifferenceAmongManyAndNoneInNoise) {
+TEST(MoreDifferThan, FindsOneGreatDifferenceAmongManyAndNoneInNoise) {
     std::vector<double> p(1000, 0.5);
-    EXPECT_FALSE(any_differs(p));
+    EXPECT_FALSE(more_differ_than(0, p, 0.05));
     p[7] = 0.01;
-    EXPECT_FALSE(any_differs(p)) << "one in a hundred is nothing among a thousand";
+    EXPECT_FALSE(more_differ_than(0, p, 0.05)) << "one in a hundred is nothing among a thousand";
     p[7] = 1e-5;
-    EXPECT_TRUE(any_differs(p));
+    EXPECT_TRUE(more_differ_than(0, p, 0.05));
+    EXPECT_FALSE(more_differ_than(1, p, 0.05)) << "one is allowed";
+    p[9] = 1e-5;
+    EXPECT_TRUE(more_differ_than(1, p, 0.05));
+    EXPECT_FALSE(more_differ_than(1000, p, 0.05));
 }
 
 RC_GTEST_PROP(JudgeProperty, AWiderToleranceNeverTurnsHoldsIntoAnythingElse, ()) {
@@ -142,6 +146,49 @@ TEST(Tiles, MayDifferInAFewWhenASmallerShareIsAskedFor) {
     EXPECT_EQ(most.failing, 1);
     EXPECT_EQ(most.needed_share, 0.9);
     EXPECT_EQ(compare_tiles(noisy(1, 0.01), noisy(2, 0.01, 0.02), 8, 0.005, 0.95).verdict, Verdict::fails);
+}
+
+/// Replicates of a picture whose tiles are single pixels: the first `beyond` have the mean `bias`.
+std::vector<Image> tiles_of_one_pixel(std::mt19937_64 &random, int width, int height, int beyond, double bias) {
+    std::normal_distribution<double> normal;
+    std::vector<Image> all;
+    for (int k = 0; k < 8; ++k) {
+        Image image(width, height);
+        for (std::size_t i = 0; i < image.pixels.size(); ++i)
+            image.pixels[i] = Rgb((static_cast<int>(i) < beyond ? bias : 0) + normal(random));
+        all.push_back(std::move(image));
+    }
+    return all;
+}
+
+constexpr int runs = 80;
+
+double share_with(Verdict verdict, int width, int height, int beyond, double bias, double tolerance) {
+    std::mt19937_64 random(7);
+    const std::vector<Image> exact(8, Image(width, height));
+    int found = 0;
+    for (int run = 0; run < runs; ++run)
+        found += compare_tiles(tiles_of_one_pixel(random, width, height, beyond, bias), exact, 1, tolerance, 0.99)
+                     .verdict == verdict;
+    return static_cast<double>(found) / runs;
+}
+
+// The level, and three standard deviations of so many runs.
+constexpr double most_wrong = 0.05 + 0.073;
+
+// One tile more than is allowed, each on the edge of the tolerance: the verdict "holds" is wrong.
+TEST(Tiles, OfAShareHoldWronglyNoMoreOftenThanTheLevel) {
+    EXPECT_EQ(tiles_allowed(256, 0.99), 2);
+    EXPECT_EQ(tiles_allowed(40, 0.99), 0);
+    EXPECT_EQ(tiles_allowed(100, 0.99), 1);
+    EXPECT_LE(share_with(Verdict::holds, 64, 16, 11, 10, 10), most_wrong);
+    EXPECT_GE(share_with(Verdict::holds, 16, 16, 2, 20, 10), 0.95) << "those that may differ do not count";
+}
+
+// As many as are allowed lie far beyond, all others on the edge: the verdict "fails" is wrong.
+TEST(Tiles, OfAShareFailWronglyNoMoreOftenThanTheLevel) {
+    EXPECT_LE(share_with(Verdict::fails, 16, 16, 2, 20, 0), most_wrong);
+    EXPECT_GE(share_with(Verdict::fails, 16, 16, 3, 20, 10), 0.95) << "one more than is allowed";
 }
 
 TEST(Tiles, OfPairedReplicatesForgetWhatBothHaveInCommon) {

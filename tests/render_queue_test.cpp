@@ -67,6 +67,56 @@ TEST_F(Queue, BeginsWithTheLowestExperimentAndReturnsEachOnce) {
     EXPECT_FALSE(queue.next());
 }
 
+TEST_F(Queue, BeginsByGroupAndThenWithTheLongOnes) {
+    std::vector<std::size_t> begun;
+    RenderQueue queue(1);
+    std::atomic<bool> open = false;
+    queue.add(task(0, [&](int) {
+        while (!open) std::this_thread::yield();
+    }));
+    const auto add = [&](std::size_t number, std::size_t group, bool is_long) {
+        RenderTask t = task(number, [&begun, number](int) { begun.push_back(number); });
+        t.group = group;
+        t.is_long = is_long;
+        queue.add(std::move(t));
+    };
+    add(4, 2, true);
+    add(1, 1, false);
+    add(2, 1, true);
+    add(3, 1, true);
+    open = true;
+    while (queue.next()) continue;
+    EXPECT_THAT(begun, ElementsAre(2, 3, 1, 4));
+}
+
+TEST_F(Queue, HasMoreRendersThanCoresOnlyWhereTheySleep) {
+    const Adapter sleepy{.name = "sleepy", .sleeps_between_pictures = true};
+    Witness rests = tracer_;
+    rests.adapter = &sleepy;
+    const auto most_at_work = [&](const Witness &w, bool is_long) {
+        std::atomic<int> at_work = 0, most = 0;
+        RenderQueue queue(2);
+        for (std::size_t i = 0; i < 12; ++i) {
+            RenderTask t = task(i);
+            t.witness = &w;
+            t.is_long = is_long;
+            t.job = [&]() -> RenderJob {
+                const int now = ++at_work;
+                for (int before = most; before < now && !most.compare_exchange_weak(before, now);) continue;
+                std::this_thread::sleep_for(std::chrono::milliseconds(30));
+                --at_work;
+                throw std::runtime_error("no scene");
+            };
+            queue.add(std::move(t));
+        }
+        while (queue.next()) continue;
+        return most.load();
+    };
+    EXPECT_EQ(most_at_work(tracer_, false), 2);
+    EXPECT_EQ(most_at_work(rests, true), 2);
+    EXPECT_EQ(most_at_work(rests, false), 4);
+}
+
 TEST_F(Queue, TakesMoreWhileItIsEmptiedAndKeepsWorkingAfterAFailure) {
     RenderQueue queue(2);
     queue.add(task(1, [](int) { throw std::runtime_error("no scene"); }));

@@ -36,22 +36,27 @@ TEST(TileNoise, IsThatOfEachTile) {
     }
 }
 
-TEST(TileNoise, TilesAtTheEdgesAreSmaller) {
-    const std::vector<double> d = tile_noise(noisy(1, 0.4, 68, 10), noisy(2, 0.4, 68, 10), tile_px);
-    ASSERT_EQ(d.size(), 9u * 2u);
-    EXPECT_GT(d[9 + 7], 1.3 * d[7]) << "of 2 rows, not 8";
+TEST(TileNoise, TilesAreThoseThatAComparisonJudges) {
+    for (const auto &[width, height] : {std::pair(68, 10), {88, 130}, {5, 9}, {64, 64}}) {
+        const Image a = noisy(1, 0.4, width, height), b = noisy(2, 0.4, width, height);
+        const TileComparison judged = compare_tiles({a, a}, {b, b}, tile_px, 1);
+        EXPECT_EQ(tile_noise(a, b, tile_px).size(), static_cast<std::size_t>(judged.columns * judged.rows));
+        EXPECT_EQ(judged.columns * judged.rows, judged.holding + judged.failing + judged.open);
+    }
+    EXPECT_EQ(tile_noise(noisy(1, 0.4, 88, 130), noisy(2, 0.4, 88, 130), 16).size(), 40u);
 }
 
-TEST(TileNoise, ForetellsTheShareOfTilesThatHold) {
+TEST(TileNoise, GivesTheNumberOfTilesThatStayOpen) {
     const std::vector<Image> exact(5, noisy(0, 0));
     for (const double tolerance : {0.02, 0.05, 0.08}) {
         std::vector<Image> others;
         for (unsigned k = 0; k < 5; ++k) others.push_back(noisy(10 + k, 0.4));
         // Grey pictures: the three channels are one.
-        const TileComparison t = compare_tiles(others, exact, tile_px, tolerance, 0.99, true, first_look);
-        const double held = static_cast<double>(t.holding) / (t.columns * t.rows);
-        const double foretold = expected_share(tile_noise(noisy(1, 0.4), noisy(2, 0.4), tile_px), 5, tolerance);
-        EXPECT_NEAR(held, foretold, 0.02) << tolerance;
+        const TileComparison t = compare_tiles(others, exact, tile_px, tolerance, 1, true, first_look);
+        const double tiles = t.columns * t.rows, held = t.holding / tiles;
+        const double open =
+            expected_open(tile_noise(noisy(1, 0.4), noisy(2, 0.4), tile_px), 5, tolerance, first_look) / tiles;
+        EXPECT_NEAR(held, 1 - open, 0.02) << tolerance;
         EXPECT_GT(held, 0.2);
         EXPECT_LT(held, 1);
     }
@@ -59,7 +64,7 @@ TEST(TileNoise, ForetellsTheShareOfTilesThatHold) {
 
 TEST(TileNoise, NoNoiseIsNoDoubt) {
     const std::vector<double> none(100, 0.0);
-    EXPECT_EQ(expected_share(none, 5, 1e-9), 1);
+    EXPECT_EQ(expected_open(none, 5, 1e-9, first_look), 0);
 }
 
 } // namespace

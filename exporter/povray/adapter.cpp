@@ -107,6 +107,7 @@ Adapter povray_adapter() {
             .explain_failure = explain_failure,
             .sample_factor = 1,
             .rendering_begins = [](std::string_view line) { return line.starts_with("==== [Rendering"); },
+            .sleeps_between_pictures = true,
             .own_cpu_seconds = own_cpu_seconds};
 }
 

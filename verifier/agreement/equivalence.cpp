@@ -120,9 +120,12 @@ double p_value_of_difference(const Estimate &m, double value, double tolerance) 
     return std::min(1.0, beyond(excess) + beyond(excess + 2 * tolerance));
 }
 
-bool any_differs(std::vector<double> p_values, double level) {
-    if (p_values.empty()) return false;
-    return *std::ranges::min_element(p_values) * static_cast<double>(p_values.size()) <= level;
+bool more_differ_than(int allowed, std::vector<double> p_values, double level) {
+    const auto others = static_cast<std::ptrdiff_t>(p_values.size()) - allowed;
+    if (others <= 0) return false;
+    const auto last = p_values.begin() + allowed;
+    std::ranges::nth_element(p_values, last);
+    return *last * static_cast<double>(others) <= level;
 }
 
 double total(const std::vector<BudgetItem> &budget) {

@@ -58,8 +58,9 @@ std::optional<int> replicates_to_decide(const Estimate &measured, Relation relat
 /// p-value of "the true mean is not outside value +- tolerance", on either side; small means that it differs. The worst
 /// case counts, a true mean on the edge.
 double p_value_of_difference(const Estimate &measured, double value, double tolerance);
-/// Holm's step-down test (1979): does any of these differ, at the family level `level`?
-bool any_differs(std::vector<double> p_values, double level = significance);
+/// Do more than `allowed` of these differ? Wrong no more often than `level`, whatever their dependence (Bonferroni over
+/// the others; Benjamini and Heller 2008). With 0: does any differ.
+bool more_differ_than(int allowed, std::vector<double> p_values, double level);
 
 /// One item of a tolerance, fixed before rendering.
 struct BudgetItem {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "verifier/measure/radiance.h"
+#include "verifier/measure/tile_grid.h"
 
 namespace threefold {
 
@@ -28,18 +29,20 @@ TileComparison judge_tiles(int columns, int rows, int tile_px, double tolerance,
     c.tolerance = tolerance;
     c.needed_share = needed_share;
     c.level = level;
-    std::vector<double> p_values;
+    c.allowed = tiles_allowed(columns * rows, needed_share);
+    const double own_level = tile_level(level, c.allowed);
+    std::vector<double> p_values;          // of each tile
     std::vector<double> replicates_needed; // by each open tile
     for (int tile = 0; tile < columns * rows; ++tile) {
         Verdict verdict = Verdict::holds;
-        double needed = 0;
+        double needed = 0, p_value = 1;
         for (int channel = 0; channel < 3; ++channel) {
             const Estimate d = difference_of(static_cast<std::size_t>(tile), channel);
-            const Verdict v = judge(d, Relation::equal, 0, tolerance, level);
+            const Verdict v = judge(d, Relation::equal, 0, tolerance, own_level);
             verdict = all_of(verdict, v);
-            p_values.push_back(p_value_of_difference(d, 0, tolerance));
+            p_value = std::min(p_value, 3 * p_value_of_difference(d, 0, tolerance));
             if (v == Verdict::undecided) {
-                const auto n = replicates_to_decide(d, Relation::equal, 0, tolerance, level);
+                const auto n = replicates_to_decide(d, Relation::equal, 0, tolerance, own_level);
                 needed = std::max(needed, n ? *n : std::numeric_limits<double>::infinity());
             }
             if (std::abs(d.mean) > std::abs(c.worst_difference)) {
@@ -48,6 +51,7 @@ TileComparison judge_tiles(int columns, int rows, int tile_px, double tolerance,
                 c.worst_row = tile / columns;
             }
         }
+        p_values.push_back(p_value);
         switch (verdict) {
         case Verdict::holds:
             ++c.holding;
@@ -61,15 +65,14 @@ TileComparison judge_tiles(int columns, int rows, int tile_px, double tolerance,
             break;
         }
     }
-    const double others = (1 - needed_share) * columns * rows; // so many may be otherwise
-    if (c.failing > others && any_differs(std::move(p_values), level))
+    if (more_differ_than(c.allowed, std::move(p_values), level))
         c.verdict = Verdict::fails;
     else
-        c.verdict = c.failing + c.open <= others ? Verdict::holds : Verdict::undecided;
-    if (c.verdict == Verdict::undecided && c.failing <= others) {
+        c.verdict = c.failing + c.open <= c.allowed ? Verdict::holds : Verdict::undecided;
+    if (c.verdict == Verdict::undecided && c.failing <= c.allowed) {
         // As many of the open tiles as must still hold, the easiest first.
         std::ranges::sort(replicates_needed);
-        const auto to_settle = static_cast<std::size_t>(c.failing + c.open - static_cast<int>(others));
+        const auto to_settle = static_cast<std::size_t>(c.failing + c.open - c.allowed);
         const double needed = replicates_needed.at(to_settle - 1);
         if (std::isfinite(needed)) c.replicates_to_decide = static_cast<int>(needed);
     }
@@ -92,6 +95,12 @@ double share_of_noise(const std::vector<Image> &tiles_a, const std::vector<Image
 }
 
 } // namespace
+
+int tiles_allowed(int tiles, double needed_share) {
+    return static_cast<int>((1 - needed_share) * tiles + 1e-9);
+}
+
+double tile_level(double level, int allowed) { return level / (allowed + 1); }
 
 TileComparison compare_tiles(const std::vector<Image> &a, const std::vector<Image> &b, int tile_px, double tolerance,
                              double needed_share, bool paired, double level) {
@@ -121,10 +130,10 @@ TileComparison compare_tiles_of_single_pictures(const Image &a, const Image &b, 
         squares.pixels[i] = d.pixels[i] * d.pixels[i];
     }
     const Image means = tile_means(d, tile_px), mean_squares = tile_means(squares, tile_px);
-    const double n = static_cast<double>(std::min(tile_px, a.width)) * std::min(tile_px, a.height);
+    const std::vector<PixelRectangle> tiles = TileGrid(a.width, a.height, tile_px).tiles();
     TileComparison c =
         judge_tiles(means.width, means.height, tile_px, tolerance, 1, significance, [&](std::size_t tile, int channel) {
-            const double m = means.pixels[tile][channel];
+            const double m = means.pixels[tile][channel], n = tiles[tile].pixels();
             const double variance = std::max(0.0, mean_squares.pixels[tile][channel] - m * m) * n / (n - 1);
             return Estimate{m, std::sqrt(variance / n), n - 1, 1};
         });

@@ -147,7 +147,9 @@ private:
                         .witness = &w,
                         .job = [look] { return look.job(); },
                         .options = {request_.folder, label, request_.tracer, request_.time_limit,
-                                    progress_.of_render(w.name, look.experiment->name, key_of(trial), work)}};
+                                    progress_.of_render(w.name, look.experiment->name, key_of(trial), work)},
+                        .group = trial.claim,
+                        .is_long = static_cast<bool>(look.experiment->tile_budget)};
         works_[{number, w.name}] = work;
         return task;
     }

@@ -2,6 +2,7 @@
 #include "verifier/check/render_queue.h"
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 namespace threefold {
@@ -24,13 +25,19 @@ RenderAnswer answer_to(const RenderTask &task, int threads) {
     return answer;
 }
 
+/// What begins first.
+auto order_of(const RenderTask &task) { return std::tuple(task.group, !task.is_long, task.experiment); }
+
 int all_cores() { return static_cast<int>(std::max(1u, std::thread::hardware_concurrency())); }
 
 } // namespace
 
+bool RenderTask::sleeps() const { return witness->adapter && witness->adapter->sleeps_between_pictures && !is_long; }
+
 RenderQueue::RenderQueue(int cores) : cores_(cores > 0 ? cores : all_cores()) {
-    const int workers = cores_ == 1 ? 1 : cores_ + 1;
-    for (int i = 0; i < workers; ++i) workers_.emplace_back([this] { work(); });
+    for (int i = 0; i < cores_; ++i) workers_.emplace_back([this] { work(false); });
+    if (cores_ == 1) return; // one render at a time
+    for (int i = 0; i < cores_; ++i) workers_.emplace_back([this] { work(true); });
 }
 
 RenderQueue::~RenderQueue() {
@@ -46,7 +53,7 @@ RenderQueue::~RenderQueue() {
 void RenderQueue::add(RenderTask task) {
     {
         const std::lock_guard lock(mutex_);
-        const auto after = std::ranges::upper_bound(waiting_, task.experiment, {}, &RenderTask::experiment);
+        const auto after = std::ranges::upper_bound(waiting_, order_of(task), {}, order_of);
         waiting_.insert(after, std::move(task));
     }
     changed_.notify_all();
@@ -70,21 +77,32 @@ std::optional<RenderAnswer> RenderQueue::next() {
     return answer;
 }
 
-/// One core each while there is more to do than cores; the last renders take all, and the system shares them out.
-int RenderQueue::threads_for_next() const {
-    return waiting_.size() + running_ < static_cast<std::size_t>(2 * cores_) ? cores_ : 1;
+/// One core each while there is more to do than cores; the last renders take all, and the system shares them out. So
+/// do long ones that render their pictures one after the other: a whole group waits for them.
+int RenderQueue::threads_for(const RenderTask &task) const {
+    const bool last = waiting_.size() + running_ < static_cast<std::size_t>(2 * cores_);
+    const bool delays = task.is_long && task.witness->adapter && task.witness->adapter->sleeps_between_pictures;
+    return last || delays ? cores_ : 1;
 }
 
-void RenderQueue::work() {
+void RenderQueue::work(bool takes_sleepers_only) {
     Sessions sessions;
     std::unique_lock lock(mutex_);
+    auto next = waiting_.end();
+    const auto find_next = [&] {
+        next = std::ranges::find_if(
+            waiting_, [&](const RenderTask &task) {
+                return !takes_sleepers_only || (task.sleeps() && task.group == waiting_.front().group);
+            });
+        return next != waiting_.end();
+    };
     while (true) {
-        changed_.wait(lock, [this] { return stopping_ || !waiting_.empty(); });
+        changed_.wait(lock, [&] { return stopping_ || find_next(); });
         if (stopping_) return;
-        const int threads = threads_for_next();
-        RenderTask task = std::move(waiting_.front());
+        const int threads = threads_for(*next);
+        RenderTask task = std::move(*next);
+        waiting_.erase(next);
         task.options.sessions = &sessions;
-        waiting_.pop_front();
         ++running_;
         lock.unlock();
         RenderAnswer answer = answer_to(task, threads);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Renders of many experiments, side by side on the machine's cores. No renderer waits for another: as soon as one
-// render ends, the next in order begins. POV-Ray sleeps a fifth of a second between two pictures and Blender reads a
-// scene on one core, so there is one render more at work than there are cores.
+// render ends, the next in order begins. POV-Ray sleeps for a third of a second a picture: beside a thread for each core,
+// some take only its short pictures, of the group that is next. (Were they of later groups, they would delay it.)
 #pragma once
 
 #include <condition_variable>
@@ -21,13 +21,18 @@
 namespace threefold {
 
 struct RenderTask {
-    std::size_t experiment; ///< the caller's number of it; tasks of lower numbers begin first
+    std::size_t experiment; ///< the caller's number of it
     const Witness *witness;
     std::function<RenderJob()> job; ///< called on the thread that renders: a job holds a whole scene
     RenderOptions options;          ///< on_progress is called from that thread
     /// They choose the samples, by pilots with this renderer; the more of both count.
     std::optional<NoiseWanted> noise{};
     std::optional<TilesWanted> tiles{};
+    /// Tasks begin by group, within a group the long ones first: whoever waits for the group waits for them.
+    std::size_t group = 0;
+    bool is_long = false;
+
+    bool sleeps() const; ///< for a large share of its time
 };
 
 struct RenderAnswer {
@@ -54,13 +59,13 @@ public:
     std::optional<RenderAnswer> next();
 
 private:
-    void work();
-    int threads_for_next() const;
+    void work(bool takes_sleepers_only);
+    int threads_for(const RenderTask &task) const;
 
     int cores_;
     std::mutex mutex_;
     std::condition_variable changed_;
-    std::deque<RenderTask> waiting_; ///< in the order of their experiments
+    std::deque<RenderTask> waiting_; ///< in the order in which they begin
     std::deque<RenderAnswer> ended_;
     std::size_t running_ = 0;
     bool stopping_ = false;

@@ -13,9 +13,11 @@
 
 #include "scenes/access.h"
 #include "scenes/light.h"
+#include "verifier/agreement/tiles.h"
 #include "verifier/claims/scope_bounds.h"
 #include "verifier/claims/visible.h"
 #include "verifier/measure/mesh_rays.h"
+#include "verifier/measure/tile_grid.h"
 
 namespace threefold {
 
@@ -32,18 +34,19 @@ struct View {
     std::vector<SeenPoint> seen;
     double brightest = 0; ///< of what is seen: taken for the brightest thing that the orb can show
 
-    int columns() const { return (scene.camera.image_width_px() + tile_px - 1) / tile_px; }
-    int rows() const { return (scene.camera.image_height_px() + tile_px - 1) / tile_px; }
+    TileGrid grid() const { return {scene.camera.image_width_px(), scene.camera.image_height_px(), tile_px}; }
+    int columns() const { return grid().columns; }
+    int rows() const { return grid().rows; }
     std::size_t tile_of(int column, int row) const {
-        return static_cast<std::size_t>(row / tile_px) * static_cast<std::size_t>(columns()) +
-               static_cast<std::size_t>(column / tile_px);
+        return static_cast<std::size_t>(std::min(row / tile_px, rows() - 1)) * static_cast<std::size_t>(columns()) +
+               static_cast<std::size_t>(std::min(column / tile_px, columns() - 1));
     }
     const SeenPoint &at(int column, int row) const {
         return seen[static_cast<std::size_t>(row) * static_cast<std::size_t>(scene.camera.image_width_px()) +
                     static_cast<std::size_t>(column)];
     }
     /// Tiles that may differ.
-    std::size_t spare() const { return static_cast<std::size_t>((1 - needed_share) * columns() * rows() + 1e-9); }
+    std::size_t spare() const { return static_cast<std::size_t>(tiles_allowed(columns() * rows(), needed_share)); }
 };
 
 View view_of(const Experiment &e) {

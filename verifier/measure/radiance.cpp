@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "verifier/measure/tile_grid.h"
+
 namespace threefold {
 
 std::vector<double> ring_means(const Image &image, int rings, const std::function<int(int, int)> &ring) {
@@ -34,14 +36,12 @@ double mean_radiance(const Image &image) {
 }
 
 Image tile_means(const Image &image, int tile_px) {
-    const int columns = std::max(1, image.width / tile_px), rows = std::max(1, image.height / tile_px);
-    Image tiles(columns, rows);
-    for (int row = 0; row < rows; ++row)
-        for (int column = 0; column < columns; ++column)
-            tiles.at(column, row) = rectangle_mean(image, column * tile_px, row * tile_px,
-                                                   column + 1 == columns ? image.width : (column + 1) * tile_px,
-                                                   row + 1 == rows ? image.height : (row + 1) * tile_px);
-    return tiles;
+    const TileGrid grid(image.width, image.height, tile_px);
+    Image means(grid.columns, grid.rows);
+    std::ranges::transform(grid.tiles(), means.pixels.begin(), [&](const PixelRectangle &t) {
+        return rectangle_mean(image, t.left, t.top, t.right, t.bottom);
+    });
+    return means;
 }
 
 } // namespace threefold

@@ -20,7 +20,7 @@ Rgb rectangle_mean(const Image &image, int left, int top, int right, int bottom)
 /// Over all pixels and channels.
 double mean_radiance(const Image &image);
 
-/// Means of whole `tile_px` x `tile_px` tiles; what is left over at the right and below joins the last tile.
+/// A pixel for each tile of the picture's TileGrid: its mean.
 Image tile_means(const Image &image, int tile_px);
 
 } // namespace threefold

@@ -135,6 +135,7 @@ Json from_tiles(const TileComparison &t) {
         {"failing", t.failing},
         {"open", t.open},
         {"needed_share", real(t.needed_share)},
+        {"allowed", t.allowed},
         {"replicates", t.replicates},
         {"level", real(t.level)},
         {"verdict", to_string(t.verdict)},

@@ -147,6 +147,7 @@ std::string sentence(const TileComparison &t) {
     if (t.holding == 1) text += "s";
     if (t.failing) text += fmt::format(", {} {}", t.failing, t.failing == 1 ? "fails" : "fail");
     if (t.open) text += fmt::format(", {} undecided", t.open);
+    if (t.allowed) text += fmt::format(" ({} may differ)", t.allowed);
     return text;
 }
 

@@ -12,6 +12,8 @@
 
 #include "scenes/error.h"
 #include "scenes/texture.h"
+#include "verifier/agreement/tiles.h"
+#include "verifier/measure/radiance.h"
 #include "verifier/optics/concentric.h"
 #include "verifier/tracer/tracer.h"
 
@@ -77,19 +79,12 @@ Image traced(const Scene &scene, int threads) {
 }
 
 double change_between(const Image &a, const Image &b, int tile_px, double needed_share) {
+    Image change(a.width, a.height);
+    for (std::size_t i = 0; i < change.pixels.size(); ++i) change.pixels[i] = Rgb(grey(b.pixels[i]) - grey(a.pixels[i]));
     std::vector<double> changes;
-    for (int top = 0; top < a.height; top += tile_px)
-        for (int left = 0; left < a.width; left += tile_px) {
-            double sum = 0, pixels = 0;
-            for (int row = top; row < std::min(top + tile_px, a.height); ++row)
-                for (int column = left; column < std::min(left + tile_px, a.width); ++column) {
-                    sum += grey(b.at(column, row)) - grey(a.at(column, row));
-                    pixels += 1;
-                }
-            changes.push_back(std::abs(sum) / pixels);
-        }
+    for (const Rgb &mean : tile_means(change, tile_px).pixels) changes.push_back(std::abs(mean.r));
     std::ranges::sort(changes, std::greater<>());
-    const auto spare = static_cast<std::size_t>((1 - needed_share) * static_cast<double>(changes.size()) + 1e-9);
+    const auto spare = static_cast<std::size_t>(tiles_allowed(static_cast<int>(changes.size()), needed_share));
     return changes[std::min(spare, changes.size() - 1)];
 }
 

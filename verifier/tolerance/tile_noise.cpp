@@ -7,9 +7,12 @@
 
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/poisson.hpp>
 #include <boost/math/distributions/students_t.hpp>
 
 #include "verifier/agreement/equivalence.h"
+#include "verifier/agreement/tiles.h"
+#include "verifier/measure/tile_grid.h"
 #include "verifier/tracer/sampler.h"
 
 namespace threefold {
@@ -22,10 +25,10 @@ constexpr int pilot_share = 4; ///< the pilot's pictures have so many times fewe
 /// tolerance, z normal and s^2 (n - 1) of chi squared, by Simpson's rule over the quantiles of s^2.
 class ChanceToHold {
 public:
-    explicit ChanceToHold(int replicates) {
+    ChanceToHold(int replicates, double level) {
         const double freedom = replicates - 1;
         const boost::math::chi_squared spread(freedom);
-        const double t = boost::math::quantile(complement(boost::math::students_t(freedom), first_look));
+        const double t = boost::math::quantile(complement(boost::math::students_t(freedom), level));
         for (int i = 0; i <= steps; ++i) {
             const double share = std::clamp(static_cast<double>(i) / steps, 1e-9, 1 - 1e-9);
             taken_.at(static_cast<std::size_t>(i)) = t * std::sqrt(boost::math::quantile(spread, share) / freedom);
@@ -52,35 +55,32 @@ private:
 
 std::vector<double> tile_noise(const Image &a, const Image &b, int tile_px) {
     std::vector<double> deviations;
-    for (int top = 0; top < a.height; top += tile_px)
-        for (int left = 0; left < a.width; left += tile_px) {
-            const int bottom = std::min(top + tile_px, a.height), right = std::min(left + tile_px, a.width);
-            Rgb squares(0);
-            for (int row = top; row < bottom; ++row)
-                for (int column = left; column < right; ++column) {
-                    const Rgb d = a.at(column, row) - b.at(column, row);
-                    squares += d * d;
-                }
-            // The difference has twice a picture's variance.
-            const double pixels = static_cast<double>(bottom - top) * (right - left);
-            deviations.push_back(std::sqrt(std::max({squares.r, squares.g, squares.b}) / 2) / pixels);
-        }
+    for (const PixelRectangle &tile : TileGrid(a.width, a.height, tile_px).tiles()) {
+        Rgb squares(0);
+        for (int row = tile.top; row < tile.bottom; ++row)
+            for (int column = tile.left; column < tile.right; ++column) {
+                const Rgb d = a.at(column, row) - b.at(column, row);
+                squares += d * d;
+            }
+        // The difference has twice a picture's variance.
+        deviations.push_back(std::sqrt(std::max({squares.r, squares.g, squares.b}) / 2) / tile.pixels());
+    }
     return deviations;
 }
 
-double expected_share(std::span<const double> deviations, int replicates, double tolerance) {
-    // The chance by the tolerance over the standard error, in steps: it is asked for every tile.
+double expected_open(std::span<const double> deviations, int replicates, double tolerance, double level) {
+    // The chance by the tolerance over the standard error, in steps: every tile needs it.
     constexpr double step = 0.05, surely = 20;
     static constexpr int steps = static_cast<int>(surely / step);
-    const ChanceToHold chance_to_hold(replicates);
+    const ChanceToHold chance_to_hold(replicates, level);
     std::vector<double> chance;
     for (int i = 0; i <= steps; ++i) chance.push_back(chance_to_hold(i * step));
     double sum = 0;
     for (const double deviation : deviations) {
         const double x = tolerance * std::sqrt(static_cast<double>(replicates)) / deviation / step; // or infinite
-        sum += x < steps ? chance[static_cast<std::size_t>(x)] : 1;
+        if (x < steps) sum += 1 - chance[static_cast<std::size_t>(x)];
     }
-    return deviations.empty() ? 1 : sum / static_cast<double>(deviations.size());
+    return sum;
 }
 
 int samples_for_tiles(const Witness &witness, const RenderJob &job, const TilesWanted &wanted,
@@ -95,14 +95,16 @@ int samples_for_tiles(const Witness &witness, const RenderJob &job, const TilesW
     quiet.label += "-pilot";
     const std::vector<Image> pictures = render(witness, pilot, quiet).images;
     const std::vector<double> few = tile_noise(pictures[0], pictures[1], wanted.tile_px);
-    // Half of what may be left open is for true differences, and for what a pilot does not see.
-    const double share = (1 + wanted.needed_share) / 2;
+    const int allowed = tiles_allowed(static_cast<int>(few.size()), wanted.needed_share);
+    const double level = tile_level(first_look, allowed);
+    constexpr double chance = 0.95;
     const auto replicates = static_cast<int>(job.replicates.size());
     int samples = wanted.least_samples;
     while (samples < wanted.most_samples) {
         // Less noise is as good as more tolerance.
         const double finer = std::sqrt(static_cast<double>(samples) / pilot.samples_per_pixel);
-        if (expected_share(few, replicates, wanted.tolerance * finer) >= share) break;
+        const double open = expected_open(few, replicates, wanted.tolerance * finer, level);
+        if (open == 0 || boost::math::cdf(boost::math::poisson(open), allowed / 2) >= chance) break;
         samples = std::min(wanted.most_samples, samples + std::max(1, samples / 20));
     }
     return samples;

@@ -20,15 +20,16 @@ struct TilesWanted {
 };
 
 /// Standard deviation of each tile's mean in one picture, of the channel where it is greatest, from two that differ by
-/// their seed alone. Pixels count as independent; tiles at the right and lower edges may be smaller.
+/// their seed alone. Pixels count as independent. The tiles are those of TileGrid, which the comparison judges.
 std::vector<double> tile_noise(const Image &a, const Image &b, int tile_px);
 
-/// The share of tiles that a comparison over so many replicates will find to hold, if no tile's true means differ:
-/// Schuirmann's test at `first_look`, by Student's t; `deviations` are those of single pictures.
-double expected_share(std::span<const double> deviations, int replicates, double tolerance);
+/// How many tiles a comparison over so many replicates leaves open on average, if no tile's true means differ:
+/// Schuirmann's test at `level`, by Student's t; `deviations` are those of single pictures.
+double expected_open(std::span<const double> deviations, int replicates, double tolerance, double level);
 
-/// RenderJob's samples with which that share is `needed_share` and some more, within the bounds wanted. Variance counts
-/// as falling with the samples' number, which low-discrepancy samples better.
+/// RenderJob's samples with which the comparison holds with a chance of 0.95, within the bounds wanted. Half of the
+/// tiles that need not hold are kept for true differences, and for what a pilot does not see. Variance counts as
+/// falling with the samples' number, which low-discrepancy samples better.
 int samples_for_tiles(const Witness &witness, const RenderJob &job, const TilesWanted &wanted,
                       const RenderOptions &options);
 
