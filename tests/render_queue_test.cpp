@@ -90,7 +90,8 @@ TEST_F(Queue, BeginsByGroupAndThenWithTheLongOnes) {
 }
 
 TEST_F(Queue, HasMoreRendersThanCoresOnlyWhereTheySleep) {
-    const Adapter sleepy{.name = "sleepy", .sleeps_between_pictures = true};
+    Adapter sleepy{};
+    sleepy.sleeps_between_pictures = true;
     Witness rests = tracer_;
     rests.adapter = &sleepy;
     const auto most_at_work = [&](const Witness &w, bool is_long) {

@@ -24,7 +24,7 @@ TEST(TileNoiseInCycles, IsMetWithTheSamplesThatDecide) {
     for (std::uint64_t k = 1; k <= 5; ++k) job.replicates.push_back({k, {0.13 * static_cast<double>(k) - 0.4, 0}});
     const RenderOptions options{.folder = folder.path(), .label = "tiles", .tracer = {}, .on_progress = {}};
     const std::vector<Image> exact = render(find_witnesses({"tracer"}).front(), job, options).images;
-    const TilesWanted wanted{8, 0.01 * mean_radiance(exact.front()), 0.9, 8, 1 << 14};
+    const TilesWanted wanted{8, 0.02 * mean_radiance(exact.front()), 0.97, 8, 1 << 14};
     const auto compared = [&] {
         return compare_tiles(render(cycles, job, options).images, exact, wanted.tile_px, wanted.tolerance,
                              wanted.needed_share, true);

@@ -53,12 +53,12 @@ struct TileComparison {
     int worst_column = 0, worst_row = 0;
     int holding = 0, failing = 0, open = 0; ///< tiles by their own interval
     double needed_share = 1;                ///< of all tiles must hold
-    int allowed = 0;                        ///< so many tiles need not
     Verdict verdict = Verdict::undecided;
     std::optional<int> replicates_to_decide;
     int replicates = 0;            ///< the fewer of both renderers'
     double noise_of_witness = 0.5; ///< its share of the variance of the tiles' differences; `versus` has the rest
     double level = first_look;     ///< of the verdict: `first_look` or `second_look`
+    int allowed = 0;               ///< so many tiles need not hold
 };
 
 /// Something measured or predicted, drawn on a picture. Image positions in pixels, row 0 on top.

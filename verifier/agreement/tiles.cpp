@@ -96,9 +96,7 @@ double share_of_noise(const std::vector<Image> &tiles_a, const std::vector<Image
 
 } // namespace
 
-int tiles_allowed(int tiles, double needed_share) {
-    return static_cast<int>((1 - needed_share) * tiles + 1e-9);
-}
+int tiles_allowed(int tiles, double needed_share) { return static_cast<int>((1 - needed_share) * tiles + 1e-9); }
 
 double tile_level(double level, int allowed) { return level / (allowed + 1); }
 

@@ -90,10 +90,9 @@ void RenderQueue::work(bool takes_sleepers_only) {
     std::unique_lock lock(mutex_);
     auto next = waiting_.end();
     const auto find_next = [&] {
-        next = std::ranges::find_if(
-            waiting_, [&](const RenderTask &task) {
-                return !takes_sleepers_only || (task.sleeps() && task.group == waiting_.front().group);
-            });
+        next = std::ranges::find_if(waiting_, [&](const RenderTask &task) {
+            return !takes_sleepers_only || (task.sleeps() && task.group == waiting_.front().group);
+        });
         return next != waiting_.end();
     };
     while (true) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Renders of many experiments, side by side on the machine's cores. No renderer waits for another: as soon as one
-// render ends, the next in order begins. POV-Ray sleeps for a third of a second a picture: beside a thread for each core,
-// some take only its short pictures, of the group that is next. (Were they of later groups, they would delay it.)
+// render ends, the next in order begins. POV-Ray sleeps for a third of a second a picture: beside a thread for each
+// core, some take only its short pictures, of the group that is next. (Were they of later groups, they would delay it.)
 #pragma once
 
 #include <condition_variable>

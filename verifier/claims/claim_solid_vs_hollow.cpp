@@ -213,7 +213,7 @@ Experiment picture_experiment(const ClaimContext &context, const std::string &ki
         {assign("image.width_px", size), assign("image.height_px", size)}, {assign("card.surface", "textured")});
     e.sampling = Sampling::box;
     e.samples_per_pixel = kind == "solid" ? 72 : 32; // a solid orb splits a ray into few branches: they are cheap
-    e.replicates = kind == "solid" ? 4 : 8;           // and in Cycles they have little noise
+    e.replicates = kind == "solid" ? 4 : 8;          // and one branch at random has little noise
     const Scene scene = e.scene;
     const OrbInScene orb = orb_of(scene);
     const double mean = predicted_mean_radiance(scene), brightest = 0.92;

@@ -80,7 +80,8 @@ Image traced(const Scene &scene, int threads) {
 
 double change_between(const Image &a, const Image &b, int tile_px, double needed_share) {
     Image change(a.width, a.height);
-    for (std::size_t i = 0; i < change.pixels.size(); ++i) change.pixels[i] = Rgb(grey(b.pixels[i]) - grey(a.pixels[i]));
+    for (std::size_t i = 0; i < change.pixels.size(); ++i)
+        change.pixels[i] = Rgb(grey(b.pixels[i]) - grey(a.pixels[i]));
     std::vector<double> changes;
     for (const Rgb &mean : tile_means(change, tile_px).pixels) changes.push_back(std::abs(mean.r));
     std::ranges::sort(changes, std::greater<>());
