@@ -5,12 +5,14 @@
 #include <cmath>
 #include <numbers>
 #include <unistd.h>
+#include <utility>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include "scenes/access.h"
 #include "scenes/camera.h"
+#include "scenes/coincident.h"
 #include "scenes/error.h"
 #include "scenes/light.h"
 #include "scenes/texture.h"
@@ -180,6 +182,20 @@ void require_glass_apart(const Scene &scene) {
     }
 }
 
+void require_rectangles_apart(const Scene &scene) {
+    std::vector<std::pair<const Object *, const Quad *>> quads;
+    for (const Object &object : scene.objects)
+        if (const Quad *quad = std::get_if<Quad>(&object.shape)) quads.emplace_back(&object, quad);
+    for (std::size_t i = 0; i < quads.size(); ++i)
+        for (std::size_t j = i + 1; j < quads.size(); ++j)
+            if (coincide(*quads[i].second, *quads[j].second))
+                throw Error(Exit::bad_data,
+                            fmt::format("{} and {} lie in one plane and overlap: which of them is seen, rounding would "
+                                        "decide",
+                                        quads[i].first->name, quads[j].first->name),
+                            "move one of them, or cut the other so that they share an edge at most");
+}
+
 void validate(const Camera &camera) {
     require_finite(camera.eye_mm, "the eye");
     require_finite(camera.target_mm, "the camera's target");
@@ -213,6 +229,21 @@ void validate(const Camera &camera) {
 
 double greatest(const Rgb &c) { return std::max({c.r, c.g, c.b}); }
 
+/// Upper bounds: of the environment, and of each surface.
+std::vector<double> shining_radiances(const Scene &scene) {
+    Rgb irradiance(0);
+    for (const Directional &light : lights_on_diffuse(scene)) irradiance += light.irradiance;
+    const auto of_surface = overloaded{
+        [&](const Diffuse &d) { return greatest(greatest_value(d.reflectance) * irradiance) / std::numbers::pi; },
+        [](const Emissive &e) { return greatest(greatest_value(e.radiance)); },
+        [](const CoordinateCard &) { return 1.0; },
+    };
+    std::vector<double> all{scene.environment ? greatest(scene.environment->radiance) : 0};
+    for (const Object &object : scene.objects)
+        if (const Surface *surface = surface_of(object.shape)) all.push_back(std::visit(of_surface, *surface));
+    return all;
+}
+
 } // namespace
 
 double picture_memory_bytes(const Camera &camera) {
@@ -243,18 +274,13 @@ Needs needs(const Scene &scene) {
     return n;
 }
 
-double greatest_radiance(const Scene &scene) {
-    Rgb irradiance(0);
-    for (const Directional &light : lights_on_diffuse(scene)) irradiance += light.irradiance;
-    const auto of_surface = overloaded{
-        [&](const Diffuse &d) { return greatest(greatest_value(d.reflectance) * irradiance) / std::numbers::pi; },
-        [](const Emissive &e) { return greatest(greatest_value(e.radiance)); },
-        [](const CoordinateCard &) { return 1.0; },
-    };
-    double most = scene.environment ? greatest(scene.environment->radiance) : 0;
-    for (const Object &object : scene.objects)
-        if (const Surface *surface = surface_of(object.shape)) most = std::max(most, std::visit(of_surface, *surface));
-    return most;
+double greatest_radiance(const Scene &scene) { return std::ranges::max(shining_radiances(scene)); }
+
+double least_shining_radiance(const Scene &scene) {
+    double least = 0;
+    for (const double radiance : shining_radiances(scene))
+        if (radiance > 0) least = least > 0 ? std::min(least, radiance) : radiance;
+    return least;
 }
 
 void validate(const Scene &scene) {
@@ -281,6 +307,7 @@ void validate(const Scene &scene) {
                            scene.glass_shadow.transmittance));
     validate(scene.camera);
     require_glass_apart(scene);
+    require_rectangles_apart(scene);
     if (!(greatest_radiance(scene) > 0))
         refuse("the scene is dark: nothing in it gives light (no light, no emitter, no environment)");
 }

@@ -29,6 +29,10 @@ Needs needs(const Scene &scene);
 /// Upper bound over the picture, whatever the camera: glass never amplifies. Reads every texel.
 double greatest_radiance(const Scene &scene);
 
+/// The least of what shines: of the environment, of each emitter and each lit surface the greatest radiance, unless
+/// that is 0. 0 where nothing shines. A number format that is fine enough for it is fine enough for the picture.
+double least_shining_radiance(const Scene &scene);
+
 /// Bytes that one picture of this camera takes while it is made and measured (an upper estimate).
 double picture_memory_bytes(const Camera &camera);
 

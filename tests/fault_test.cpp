@@ -3,12 +3,18 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <regex>
 #include <set>
 
 #include "exporter/adapter.h"
 #include "exporter/scene_json.h"
+#include "scenes/access.h"
 #include "scenes/error.h"
+#include "tests/quick_request.h"
+#include "tests/temporary_folder.h"
+#include "verifier/check/plan.h"
 #include "verifier/claims/fault.h"
 #include "verifier/tracer/tracer.h"
 
@@ -29,7 +35,9 @@ Scene room() {
     glass.interface_transmittance = 0.8;
     const auto ramp = std::make_shared<const Texture>(grey_ramp());
     scene.objects = {{"orb", GlassShell{{0, 0, 0}, 68, 2, glass}},
-                     {"card", Quad{{0, 0, -250}, {300, 0, 0}, {0, 300, 0}, Emissive{ramp}}}};
+                     {"card", Quad{{0, 0, -250}, {300, 0, 0}, {0, 300, 0}, Emissive{ramp}}},
+                     {"patch", Quad{{0, 200, -240}, {10, 0, 0}, {0, 10, 0}, Emissive{Rgb(0.5)}}},
+                     {"floor", Quad{{0, -100, 0}, {10, 0, 0}, {0, 0, 10}, Diffuse{Rgb(0.4)}}}};
     scene.environment = Environment{Rgb(0.25)};
     scene.camera.width_px = scene.camera.height_px = 16;
     return scene;
@@ -39,7 +47,7 @@ Scene room() {
 Scene expected(const InjectedFault &injected) {
     Scene scene = room();
     auto &shell = std::get<GlassShell>(scene.objects.front().shape);
-    auto &paint = std::get<Emissive>(std::get<Quad>(scene.objects.back().shape).surface).radiance;
+    auto &paint = std::get<Emissive>(std::get<Quad>(scene.objects[1].shape).surface).radiance;
     const auto repaint = [&](std::vector<int> samples) {
         Texture t{4, 1, {}};
         for (const int sample : samples)
@@ -76,6 +84,7 @@ Scene expected(const InjectedFault &injected) {
         break;
     case Fault::radiance_slip:
         repaint({0, 10100, 30300, 60600});
+        std::get<Emissive>(std::get<Quad>(scene.objects[2].shape).surface).radiance = Rgb(0.505);
         scene.environment->radiance = Rgb(0.2525);
         break;
     case Fault::inner_normal_flipped:
@@ -90,6 +99,117 @@ Scene expected(const InjectedFault &injected) {
 TEST(Fault, ChangesWhatItSaysAndNothingElse) {
     for (const FaultEntry &entry : faults())
         EXPECT_EQ(to_json(with_fault(room(), entry.fault)), to_json(expected(entry.fault))) << entry.name;
+}
+
+/// What may stand at the end of the path of a value that the fault changes in the scene's JSON.
+std::string changed_by(Fault fault) {
+    switch (fault) {
+    case Fault::index_one_percent:
+        return "/glass/index";
+    case Fault::wall_ten_percent:
+    case Fault::wall_doubled:
+        return "/shell/wall_mm";
+    case Fault::inner_surface_missing:
+        return "/shape/(shell|ball)";
+    case Fault::gamma_slip:
+    case Fault::texture_mirrored:
+        return "/(emissive|diffuse)/hash";
+    case Fault::camera_half_pixel:
+    case Fault::camera_one_pixel:
+        return "/camera/film_offset_px/0";
+    case Fault::light_missing:
+        return "/lights/[0-9]+/irradiance/[0-9]";
+    case Fault::orb_one_millimetre:
+        return "/(shell|ball)/centre_mm/0";
+    case Fault::radiance_slip:
+        return "/lights/[0-9]+/irradiance/[0-9]|/environment/[0-9]|/emissive/(hash|[0-9])";
+    case Fault::inner_normal_flipped:
+    case Fault::four_bounces:
+    case Fault::tint_forgotten:
+        return "nothing";
+    }
+    return "";
+}
+
+/// Has the scene something that the fault changes?
+bool concerns(Fault fault, const Scene &scene) {
+    const auto some_object = [&](auto has) { return std::ranges::any_of(scene.objects, has); };
+    const auto has_glass = [](const Object &o) { return glass_of(o.shape) != nullptr; };
+    const auto is_shell = [](const Object &o) { return std::holds_alternative<GlassShell>(o.shape); };
+    const auto shines = [](const Rgb &radiance) { return radiance != Rgb(0); };
+    const auto texture_of = [](const Object &o) -> const Texture * {
+        const Surface *surface = surface_of(o.shape);
+        const Diffuse *d = surface ? std::get_if<Diffuse>(surface) : nullptr;
+        const Emissive *e = surface ? std::get_if<Emissive>(surface) : nullptr;
+        const Paint *paint = d ? &d->reflectance : e ? &e->radiance : nullptr;
+        const auto *texture = paint ? std::get_if<std::shared_ptr<const Texture>>(paint) : nullptr;
+        return texture ? texture->get() : nullptr;
+    };
+    switch (fault) {
+    case Fault::index_one_percent:
+    case Fault::orb_one_millimetre:
+        return some_object(has_glass);
+    case Fault::wall_ten_percent:
+    case Fault::wall_doubled:
+    case Fault::inner_surface_missing:
+        return some_object(is_shell);
+    case Fault::gamma_slip: // black and white stay what they are
+        return some_object([&](const Object &o) {
+            const Texture *t = texture_of(o);
+            return t && std::ranges::any_of(t->rgb, [](int sample) { return sample > 100 && sample < 65400; });
+        });
+    case Fault::texture_mirrored:
+        return some_object([&](const Object &o) {
+            const Texture *t = texture_of(o);
+            bool symmetric = true;
+            for (int i = 0; t && i < t->width * t->height; ++i)
+                for (int k = 0; k < 3; ++k) {
+                    const int across = i / t->width * t->width + t->width - 1 - i % t->width;
+                    symmetric = symmetric && t->rgb[static_cast<std::size_t>(3 * i + k)] ==
+                                                 t->rgb[static_cast<std::size_t>(3 * across + k)];
+                }
+            return t && !symmetric;
+        });
+    case Fault::camera_half_pixel:
+    case Fault::camera_one_pixel:
+        return true;
+    case Fault::light_missing:
+        return !scene.lights.empty();
+    case Fault::radiance_slip:
+        return !scene.lights.empty() || (scene.environment && shines(scene.environment->radiance)) ||
+               some_object([&](const Object &o) {
+                   const Surface *surface = surface_of(o.shape);
+                   const Emissive *e = surface ? std::get_if<Emissive>(surface) : nullptr;
+                   const Rgb *radiance = e ? std::get_if<Rgb>(&e->radiance) : nullptr;
+                   const Texture *t = texture_of(o);
+                   return (radiance && shines(*radiance)) ||
+                          (e && t && std::ranges::any_of(t->rgb, [](int s) { return s > 100 && s < 65535; }));
+               });
+    case Fault::inner_normal_flipped:
+    case Fault::four_bounces:
+    case Fault::tint_forgotten:
+        return false;
+    }
+    return false;
+}
+
+TEST(Fault, ChangesTheSceneOfEveryClaimThatItConcernsAndInTheRightThingOnly) {
+    const TemporaryFolder folder;
+    CheckRequest request = quick_request<CheckRequest>(folder.path(), {});
+    request.claims = built_in_claims();
+    for (const PlannedJob &planned : planned_jobs(request)) {
+        const nlohmann::json honest = to_json(planned.job.scene);
+        for (const FaultEntry &entry : faults()) {
+            const nlohmann::json changes =
+                nlohmann::json::diff(honest, to_json(with_fault(planned.job, entry.fault).scene));
+            EXPECT_EQ(!changes.empty(), concerns(entry.fault, planned.job.scene))
+                << planned.claim << " " << planned.label << " " << entry.name;
+            for (const auto &change : changes)
+                EXPECT_TRUE(std::regex_search(change["path"].get<std::string>(),
+                                              std::regex("(" + changed_by(entry.fault) + ")$")))
+                    << planned.claim << " " << planned.label << " " << entry.name << ": " << change;
+        }
+    }
 }
 
 TEST(Fault, OfNoSizeChangesNothing) {

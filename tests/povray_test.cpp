@@ -211,6 +211,21 @@ TEST(PovRayRefusals, name_a_wall_that_is_too_thin) {
     EXPECT_NO_THROW(compile_povray(job_of(scene_of({{"orb", GlassShell{.wall_mm = 2e-5, .glass = {}}}}))));
 }
 
+TEST(PovRayRefusals, name_a_radiance_that_is_lost_beside_the_brightest) {
+    Scene scene = scene_of({{"lamp", painted(Emissive{Rgb(2e5)})}});
+    scene.environment = Environment{Rgb(1)};
+    expect_refused(job_of(scene), "a radiance of 1, which is in the scene too, would be wrong by up to 1.5");
+    scene.objects = {{"lamp", painted(Emissive{Rgb(2e3)})}};
+    EXPECT_NO_THROW(compile_povray(job_of(scene)));
+    scene.environment = Environment{Rgb(0)};
+    scene.objects = {{"lamp", painted(Emissive{Rgb(2e5)})}};
+    EXPECT_NO_THROW(compile_povray(job_of(scene))) << "black stays black";
+    // A surface that its light leaves dim beside a lamp.
+    scene.objects.push_back({"wall", painted(Diffuse{.reflectance = Rgb(0.5)})});
+    scene.lights = {{}};
+    expect_refused(job_of(scene), "which is in the scene too");
+}
+
 TEST(PovRayRefusals, name_light_that_would_be_missing) {
     Scene scene = scene_of({{"orb", GlassBall{}}, {"wall", painted(Diffuse{})}});
     scene.lights = {{}};

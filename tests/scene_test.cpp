@@ -103,6 +103,34 @@ TEST(Parameters, AnAssignmentNeedsANameAndAnEqualsSign) {
     error_of([] { parse_assignment("=1"); }, Exit::usage);
 }
 
+TEST(Validate, RefusesRectanglesThatOverlapInOnePlane) {
+    const Quad a{{0, 0, -5}, {2, 0, 0}, {0, 1, 0}, Emissive{Rgb(1)}};
+    const auto verdict = [&](const Quad &b) {
+        Scene s = good();
+        s.objects = {{"wall", a}, {"picture", b}};
+        try {
+            validate(s);
+        } catch (const Error &error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    const auto moved = [&](Vec3 by) {
+        Quad b = a;
+        b.centre_mm += by;
+        return b;
+    };
+    EXPECT_THAT(verdict(moved({1, 0.5, 0})), testing::HasSubstr("wall and picture lie in one plane and overlap"));
+    EXPECT_THAT(verdict(moved({0, 0, 1e-8})), testing::HasSubstr("overlap")) << "nearer than single precision tells";
+    EXPECT_THAT(verdict({{3.2, 0, -5}, {1, 1, 0}, {-1, 1, 0}, Emissive{Rgb(1)}}), testing::HasSubstr("overlap"));
+    EXPECT_EQ(verdict({{4.1, 0, -5}, {1, 1, 0}, {-1, 1, 0}, Emissive{Rgb(1)}}), "")
+        << "turned by 45 degrees, beside it";
+    EXPECT_EQ(verdict({{3.2, 2.2, -5}, {1, 1, 0}, {-1, 1, 0}, Emissive{Rgb(1)}}), "") << "off its corner";
+    EXPECT_EQ(verdict(moved({4, 0, 0})), "") << "they share an edge";
+    EXPECT_EQ(verdict(moved({0, 0, -1e-3})), "") << "one behind the other";
+    EXPECT_EQ(verdict({{0, 0, -5}, {2, 0, 0}, {0, 0, 1}, Emissive{Rgb(1)}}), "") << "they cross";
+}
+
 TEST(Validate, AcceptsTheCatalogue) { EXPECT_NO_THROW(validate(good())); }
 
 TEST(Validate, RefusesGlassWithoutMeaning) {

@@ -8,6 +8,7 @@
 #include "tests/temporary_folder.h"
 #include "verifier/agreement/tiles.h"
 #include "verifier/check/check.h"
+#include "verifier/check/pictures.h"
 #include "verifier/check/rows.h"
 
 namespace threefold {
@@ -131,6 +132,23 @@ TEST(SecondLook, OfPicturesSettlesWhatTheFirstLeavesOpenAndIsTakenByTheNoisyRend
     ASSERT_GT(wanted, 4);
     for (Image &more : pictures(random, 1, 0.08, 60)) others.push_back(more);
     EXPECT_EQ(compare_tiles(others, exact, 8, 0.05, 1, false, second_look).verdict, Verdict::holds);
+}
+
+TEST(ComparedPictures, AreUndecidedWhereTheirNumbersAreTooCoarse) {
+    std::mt19937_64 random(8);
+    const std::vector<Witness> renderers = find_witnesses({"tracer", "povray"});
+    Experiment e;
+    e.tile_px = 8;
+    e.tile_budget = [](const Accuracy &, const Accuracy &) { return std::vector<BudgetItem>{{"all", 0.05, ""}}; };
+    std::vector<Testimony> testimonies;
+    for (const Witness &w : renderers)
+        testimonies.push_back({&w, {pictures(random, 0, 0.001, 4), {}}, 1, 1}); // both store the environment as black
+    EXPECT_EQ(compared_pictures(e, testimonies, first_look).front().verdict, Verdict::holds);
+    testimonies[1].rendered.record.accuracy.radiance_step = 1.5;
+    const TileComparison coarse = compared_pictures(e, testimonies, first_look).front();
+    EXPECT_EQ(coarse.verdict, Verdict::undecided);
+    EXPECT_NE(coarse.problem.find("1.5"), std::string::npos) << coarse.problem;
+    EXPECT_EQ(replicates_for_second_look("povray", 4, {coarse}), 0) << "more replicates are no help";
 }
 
 TEST(SecondLook, CountsWhereOneOfTwoRenderersRenderedMore) {

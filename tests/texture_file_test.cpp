@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Textures from users' pictures: what a sample becomes, and what is refused.
+#include <ImathBox.h>
+#include <OpenEXR/ImfRgbaFile.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "exporter/file_reader.h"
 #include "exporter/files.h"
@@ -55,6 +59,43 @@ TEST(TextureFile, AnEightBitPictureIsSrgbUnlessAGammaIsGiven) {
     EXPECT_NEAR(read_texture(folder / "t.png", 0)->rgb[0] / 65535.0, 0.2, 0.002);
     EXPECT_EQ(read_texture(folder / "t.png", 1)->rgb[0], 124 * 257);
     EXPECT_EQ(read_texture(folder / "t.png", 3)->rgb[0], std::lround(65535 * std::pow(124 / 255.0, 3)));
+}
+
+/// A TIFF of 2 x 1 grey pixels that names an orientation.
+std::string tiff_with_orientation(int orientation) {
+    std::string bytes("II*\0\x0a\0\0\0\x20\xe0", 10); // the pixels, then the directory
+    const auto add = [&bytes](unsigned value, int size) {
+        for (int i = 0; i < size; ++i) bytes += static_cast<char>(value >> 8 * i & 0xff);
+    };
+    const std::vector<std::pair<unsigned, unsigned>> tags{
+        {256, 2}, {257, 1}, {258, 8}, {259, 1}, {262, 1}, {273, 8}, {274, static_cast<unsigned>(orientation)},
+        {277, 1}, {278, 1}, {279, 2}};
+    add(static_cast<unsigned>(tags.size()), 2);
+    for (const auto &[tag, value] : tags) add(tag, 2), add(3, 2), add(1, 4), add(value, 4); // 3: 16-bit integers
+    add(0, 4);
+    return bytes;
+}
+
+TEST(TextureFile, OneThatIsToBeTurnedIsRefused) {
+    const tests::TemporaryFolder folder;
+    write_file_atomically(folder / "upright.tif", tiff_with_orientation(1));
+    EXPECT_EQ(read_texture(folder / "upright.tif", 1)->width, 2);
+    write_file_atomically(folder / "turned.tif", tiff_with_orientation(6));
+    EXPECT_THAT(refusal(folder / "turned.tif", 1), HasSubstr("EXIF orientation 6"));
+}
+
+TEST(TextureFile, OneWhoseDataWindowIsNotItsDisplayWindowIsRefused) {
+    const tests::TemporaryFolder folder;
+    const auto write = [&](const char *name, Imath::Box2i data) {
+        const std::vector<Imf::Rgba> pixels(4, Imf::Rgba(0.5f, 0.5f, 0.5f));
+        Imf::RgbaOutputFile file((folder / name).c_str(), Imath::Box2i({0, 0}, {3, 3}), data, Imf::WRITE_RGB);
+        file.setFrameBuffer(pixels.data() - data.min.x - 2 * data.min.y, 1, 2);
+        file.writePixels(2);
+    };
+    write("part.exr", Imath::Box2i({1, 2}, {2, 3}));
+    EXPECT_THAT(refusal(folder / "part.exr", 0), HasSubstr("2 x 2 pixels at (1, 2) of a picture of 4 x 4"));
+    write_image(folder / "whole.exr", Image(4, 4, Rgb(0.5)));
+    EXPECT_EQ(read_texture(folder / "whole.exr", 0)->width, 4);
 }
 
 TEST(TextureFile, WhatIsNoReflectanceOrNoGammaIsRefused) {

@@ -4,7 +4,10 @@
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <ostream>
+
+#include <glm/geometric.hpp>
 
 #include "scenes/camera.h"
 #include "scenes/error.h"
@@ -244,6 +247,79 @@ TEST(Tracer, SinglePrecisionIsCloseToDouble) {
     for (std::size_t i = 0; i < a.pixels.size(); ++i) differences.push_back(std::abs(a.pixels[i].g - b.pixels[i].g));
     EXPECT_NE(a.pixels, b.pixels);
     EXPECT_LT(quantile(differences, 0.95), 1e-4);
+}
+
+// Nothing stands over a flat net: its cells must not shade one another, though Embree's numbers are single.
+TEST(Tracer, AFlatNetOfFineCellsShadesNoneOfItself) {
+    for (const double elevation_deg : {0.2, 1.0, 5.0, 30.0}) {
+        Scene s;
+        s.objects = {{"orb", GlassBall{{0, 0, 0}, 68, {}}}};
+        s.glass_shadow.rule = GlassShadow::Rule::none;
+        const Vec3 u = glm::normalize(Vec3(1, 0.3, 0.2)), n = glm::normalize(glm::cross(u, Vec3(0.1, 0.2, -1))),
+                   v = glm::cross(n, u), middle(300, -230, 120);
+        Mesh net{.vertices_mm = {}, .triangles = {}, .uv = {}, .surface = Diffuse{Rgb(0.5)}};
+        constexpr int cells = 120;
+        for (int j = 0; j <= cells; ++j)
+            for (int i = 0; i <= cells; ++i)
+                net.vertices_mm.push_back(middle + 0.5 * (i - cells / 2) * u + 0.5 * (j - cells / 2) * v);
+        for (unsigned j = 0; j < cells; ++j)
+            for (unsigned i = 0; i < cells; ++i) {
+                const unsigned a = j * (cells + 1) + i, b = a + cells + 1;
+                net.triangles.insert(net.triangles.end(), {{a, a + 1, b}, {b, a + 1, b + 1}});
+            }
+        s.objects.push_back({"net", net});
+        const double elevation = elevation_deg * std::numbers::pi / 180;
+        s.lights = {
+            Directional{-(std::cos(elevation) * glm::normalize(u + 0.7 * v) + std::sin(elevation) * n), Rgb(1)}};
+        s.camera.eye_mm = middle + 200.0 * n;
+        s.camera.target_mm = middle;
+        s.camera.up = v;
+        s.camera.projection = Projection::orthographic;
+        s.camera.orthographic_width_mm = 50;
+        s.camera.width_px = s.camera.height_px = 256;
+        RenderJob job;
+        job.scene = s;
+        job.samples_per_pixel = 4;
+        const Image image = trace(job).images.front();
+        const double lit = 0.5 / std::numbers::pi * std::sin(elevation);
+        std::size_t darker = 0;
+        for (const Rgb &pixel : image.pixels) darker += !(std::abs(pixel.g - lit) < 1e-9 * lit);
+        EXPECT_EQ(darker, 0u) << "at " << elevation_deg << " degrees";
+    }
+}
+
+// A step beside the place that is lit does stand in the way, however low.
+TEST(Tracer, AStepOfAThousandthOfAMillimetreCastsItsShadow) {
+    Scene s;
+    constexpr double high = 1e-3;
+    Mesh step{.vertices_mm = {{-50, 0, -50},
+                              {0, 0, -50},
+                              {0, 0, 50},
+                              {-50, 0, 50},
+                              {0, high, -50},
+                              {50, high, -50},
+                              {50, high, 50},
+                              {0, high, 50}},
+              .triangles = {{0, 1, 2}, {0, 2, 3}, {1, 4, 7}, {1, 7, 2}, {4, 5, 6}, {4, 6, 7}},
+              .uv = {},
+              .surface = Diffuse{Rgb(0.5)}};
+    s.objects = {{"step", step}};
+    const double elevation = 0.01; // the shadow is 0.1 mm wide
+    s.lights = {Directional{{-std::cos(elevation), -std::sin(elevation), 0}, Rgb(1)}};
+    s.camera.eye_mm = {-0.1, 10, 0};
+    s.camera.target_mm = {-0.1, 0, 0};
+    s.camera.up = {0, 0, 1};
+    s.camera.projection = Projection::orthographic;
+    s.camera.orthographic_width_mm = 0.2;
+    s.camera.width_px = 40;
+    s.camera.height_px = 2;
+    RenderJob job;
+    job.scene = s;
+    job.samples_per_pixel = 64;
+    const Image image = trace(job).images.front();
+    double dark = 0;
+    for (int column = 0; column < 40; ++column) dark += image.at(column, 0).g == 0 ? 0.005 : 0;
+    EXPECT_NEAR(dark, high / std::tan(elevation), 0.006);
 }
 
 TEST(Tracer, LightsADiffuseSurfaceByLambertAndTheGlassShadowRule) {

@@ -75,9 +75,9 @@ auto from_file(const std::filesystem::path &path, Work work) {
 
 } // namespace
 
-glm::ivec2 picture_size_px(const std::filesystem::path &path) {
+PictureHeader read_picture_header(const std::filesystem::path &path) {
     return from_file(path, [](const PictureModule &module, const std::string &name, std::int64_t bytes) {
-        return module.size_px(name, bytes);
+        return module.header(name, bytes);
     });
 }
 

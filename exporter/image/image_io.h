@@ -10,6 +10,7 @@
 #include <glm/vec2.hpp>
 
 #include "exporter/image/image.h"
+#include "exporter/image/picture_header.h"
 
 namespace threefold {
 
@@ -22,8 +23,8 @@ enum class Encoding { declared, linear };
 /// is corrupt, truncated, empty, or holds NaN or infinity; the message names the file.
 Image read_image(const std::filesystem::path &path, Encoding encoding = Encoding::declared);
 
-/// Width and height, without the pixels; throws like read_image.
-glm::ivec2 picture_size_px(const std::filesystem::path &path);
+/// Throws like read_image.
+PictureHeader read_picture_header(const std::filesystem::path &path);
 
 /// The format follows the extension: .exr (32-bit float), .tif (64-bit float, lossless for the tracer), .png (8-bit
 /// sRGB preview of radiance 0 to 1). `metadata` becomes header attributes (in a .tif, lines of the image description).

@@ -66,9 +66,13 @@ std::unique_ptr<OIIO::ImageInput> open_picture(const std::string &path, std::int
     return input;
 }
 
-glm::ivec2 size_px(const std::string &path, std::int64_t bytes) {
+PictureHeader header(const std::string &path, std::int64_t bytes) {
     const auto input = open_picture(path, bytes);
-    return {input->spec().width, input->spec().height};
+    const OIIO::ImageSpec &spec = input->spec();
+    return {{spec.width, spec.height},
+            {spec.x - spec.full_x, spec.y - spec.full_y},
+            {spec.full_width, spec.full_height},
+            spec.get_int_attribute("Orientation", 1)};
 }
 
 Image read(const std::string &path, std::int64_t bytes, bool undo_curve) {
@@ -115,6 +119,5 @@ std::string encode_tiff(const Image &image, const std::string &description) {
 } // namespace
 } // namespace threefold
 
-extern "C" __attribute__((visibility("default")))
-const threefold::PictureModule threefold_pictures{threefold::picture_module_version, OIIO_VERSION_STRING,
-                                                  threefold::size_px, threefold::read, threefold::encode_tiff};
+extern "C" __attribute__((visibility("default"))) const threefold::PictureModule threefold_pictures{
+    threefold::picture_module_version, OIIO_VERSION_STRING, threefold::header, threefold::read, threefold::encode_tiff};

@@ -7,9 +7,8 @@
 #include <cstdint>
 #include <string>
 
-#include <glm/vec2.hpp>
-
 #include "exporter/image/image.h"
+#include "exporter/image/picture_header.h"
 
 namespace threefold {
 
@@ -19,7 +18,7 @@ struct PictureModule {
     const char *version;
     const char *openimageio_version;
     /// Of a file of so many bytes.
-    glm::ivec2 (*size_px)(const std::string &path, std::int64_t bytes);
+    PictureHeader (*header)(const std::string &path, std::int64_t bytes);
     /// As read_image (image_io.h); `undo_curve`: Encoding::declared.
     Image (*read)(const std::string &path, std::int64_t bytes, bool undo_curve);
     /// The bytes of a file of 64-bit floats.

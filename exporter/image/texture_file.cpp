@@ -20,12 +20,25 @@ std::shared_ptr<const Texture> read_texture(const std::filesystem::path &path, d
     if (!(gamma == 0 || (gamma > 0 && std::isfinite(gamma))))
         throw Error(Exit::bad_data,
                     fmt::format("the gamma of a texture must be 0 or a positive number, not {}", gamma));
-    const glm::ivec2 size = picture_size_px(path);
+    const PictureHeader header = read_picture_header(path);
+    const glm::ivec2 size = header.size_px;
     if (std::int64_t{size.x} * size.y > most_pixels)
         throw Error(Exit::bad_data,
                     fmt::format("picture {} has {} x {} pixels: a texture may have {}", path.string(), size.x, size.y,
                                 most_pixels),
                     "make it smaller; Threefold does not change a user's picture");
+    // What renderers make of these two differs, and a viewer shows another picture again.
+    if (header.offset_px != glm::ivec2(0) || header.display_px != size)
+        throw Error(Exit::bad_data,
+                    fmt::format("picture {} stores {} x {} pixels at ({}, {}) of a picture of {} x {}", path.string(),
+                                size.x, size.y, header.offset_px.x, header.offset_px.y, header.display_px.x,
+                                header.display_px.y),
+                    "save it anew with a data window as large as its display window");
+    if (header.orientation != 1)
+        throw Error(Exit::bad_data,
+                    fmt::format("picture {} says that it is to be turned or mirrored (EXIF orientation {})",
+                                path.string(), header.orientation),
+                    "save it anew, turned as it is to be seen, with orientation 1");
     const Image image = read_image(path, gamma > 0 ? Encoding::linear : Encoding::declared);
     auto texture = std::make_shared<Texture>();
     texture->width = image.width;

@@ -58,6 +58,24 @@ double extent_mm(const Scene &scene) {
     return extent;
 }
 
+/// Pictures are named by a label and a hash of all that they depend on.
+std::string label_of(const std::filesystem::path &picture) {
+    const std::string name = picture.filename().string();
+    return name.substr(0, std::min(name.rfind('-'), name.size()));
+}
+
+Error missing_picture(const std::filesystem::path &path) {
+    std::error_code ignored;
+    for (const auto &entry : std::filesystem::directory_iterator(path.parent_path(), ignored))
+        if (label_of(entry.path()) == label_of(path) && entry.path().stem().extension() == path.stem().extension())
+            return {Exit::input_output,
+                    fmt::format("the picture {} is missing: the folder has {}, which was exported with other options",
+                                path.string(), entry.path().filename().string()),
+                    "give check --image the options that --export had: --quick, --preset, --set, --seed, --tolerance"};
+    return {Exit::input_output, fmt::format("the picture {} is missing", path.string()),
+            "check --export mitsuba=FOLDER writes the scenes and the script that renders them"};
+}
+
 } // namespace
 
 MitsubaJob to_mitsuba_job(const RenderJob &job, std::string_view label) {
@@ -132,9 +150,7 @@ std::vector<Image> read_pictures(const MitsubaJob &asked, const RenderJob &job, 
     for (std::size_t k = 0; k < asked.pictures.size(); ++k) {
         const std::filesystem::path path = folder / asked.pictures[k];
         std::error_code ignored;
-        if (!std::filesystem::exists(path, ignored))
-            throw Error(Exit::input_output, fmt::format("the picture {} is missing", path.string()),
-                        "check --export mitsuba=FOLDER writes the scenes and the script that renders them");
+        if (!std::filesystem::exists(path, ignored)) throw missing_picture(path);
         const Image read = read_image(path, Encoding::linear);
         if (read.width != asked.width_px || read.height != asked.height_px)
             throw Error(Exit::bad_data, fmt::format("the picture {} is {} x {} px, not {} x {}", path.string(),

@@ -343,7 +343,10 @@ private:
     void tell_general_losses() {
         const bool glass =
             std::ranges::any_of(scene_.objects, [](const Object &o) { return outer_sphere(o.shape).has_value(); });
-        if (diffuse_ > 0 && glass && !scene_.lights.empty() && scene_.glass_shadow.rule != GlassShadow::Rule::opaque)
+        const GlassShadow &shadow = scene_.glass_shadow;
+        const bool opaque = shadow.rule == GlassShadow::Rule::opaque ||
+                            (shadow.rule == GlassShadow::Rule::constant && shadow.transmittance == 0);
+        if (diffuse_ > 0 && glass && !scene_.lights.empty() && !opaque)
             lose("the glass-shadow rule: Mitsuba's path tracer stops parallel light at glass");
         if (diffuse_ > 0 && scene_.environment && scene_.environment->radiance != Rgb(0)) {
             lose(fmt::format("the environment's light on surfaces as that of {} parallel lights: Mitsuba takes it from "

@@ -20,6 +20,8 @@ using povray::number;
 // The greatest radiance is stored one step below full scale, so that rounding never clips it.
 constexpr double most_pixels = 1 << 28;
 constexpr double white = 65535, brightest = 65534;
+/// How far a stored radiance may be off, as a share of the least that shines in the scene: more shows in a picture.
+constexpr double most_step = 0.02;
 
 /// How many pictures are quickest where each takes its share of the lights: asking for lights takes the time of all
 /// samples and lights once, divided by their number; each picture takes the time to start it and to parse the scene.
@@ -153,6 +155,15 @@ Exported compile_povray(const RenderJob &job) {
                                    "would be lost; at most {:g} may be",
                                    trapped, depth, most_trapped_light),
                        "show more than the outermost rim, or use the tracer");
+    const double step = 0.5 / white / writer.radiance_scale, least = least_shining_radiance(job.scene);
+    if (least > 0 && step > most_step * least)
+        povray::refuse(
+            fmt::format("it stores 16 bits of up to {:.3g}, the brightest radiance in the scene, whether or not "
+                        "the camera sees it: a radiance of {:.3g}, which is in the scene too, would be wrong by "
+                        "up to {:.3g}",
+                        greatest, least, step),
+            fmt::format("let the brightest be at most {:.0f} times the dimmest, or use another renderer",
+                        std::floor(most_step * 2 * white)));
     exported.radiance_scale = writer.radiance_scale;
     writer.text = head(job, writer.space, writer.radiance_scale);
     write_camera(writer);
@@ -164,7 +175,7 @@ Exported compile_povray(const RenderJob &job) {
     exported.arguments = arguments(job, exported.supersampling, pictures);
     if (job.threads > 0) exported.thread_arguments = {fmt::format("Work_Threads={}", job.threads)};
     exported.outputs = output_names(pictures);
-    exported.accuracy.radiance_step = 0.5 / white / writer.radiance_scale;
+    exported.accuracy.radiance_step = step;
     exported.accuracy.rounding_mm = std::max(writer.mesh_rounding_mm, rounding_mm(writer.space));
     exported.accuracy.cut_weight = job.cut_weight;
     exported.accuracy.trapped_light = trapped;

@@ -59,6 +59,7 @@ struct TileComparison {
     double noise_of_witness = 0.5; ///< its share of the variance of the tiles' differences; `versus` has the rest
     double level = first_look;     ///< of the verdict: `first_look` or `second_look`
     int allowed = 0;               ///< so many tiles need not hold
+    std::string problem{};         ///< why these pictures cannot be judged; empty where they can
 };
 
 /// Something measured or predicted, drawn on a picture. Image positions in pixels, row 0 on top.

@@ -10,6 +10,12 @@
 
 namespace threefold {
 
+namespace {
+
+constexpr double most_quantisation = 0.25; ///< of the tolerance
+
+} // namespace
+
 std::vector<TileComparison> compared_pictures(const Experiment &e, const std::vector<Testimony> &testimonies,
                                               double level) {
     std::vector<TileComparison> all;
@@ -25,6 +31,14 @@ std::vector<TileComparison> compared_pictures(const Experiment &e, const std::ve
             tiles.witness = a.witness->name;
             tiles.versus = b.witness->name;
             tiles.budget = budget;
+            // Too coarse numbers say nothing of how well the pictures agree.
+            const double steps = a.rendered.record.accuracy.radiance_step + b.rendered.record.accuracy.radiance_step;
+            if (steps > most_quantisation * tiles.tolerance) {
+                tiles.verdict = Verdict::undecided;
+                tiles.replicates_to_decide.reset();
+                tiles.problem = fmt::format("the pictures store radiance to {:.3g} only, the tolerance is {:.3g}",
+                                            steps, tiles.tolerance);
+            }
             all.push_back(std::move(tiles));
         }
     return all;

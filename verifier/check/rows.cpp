@@ -147,7 +147,8 @@ int replicates_for_second_look(const std::string &witness, int replicates, const
 int replicates_for_second_look(const std::string &witness, int replicates, const std::vector<TileComparison> &tiles) {
     int wanted = 0;
     for (const TileComparison &t : tiles) {
-        if (t.verdict != Verdict::undecided || (t.witness != witness && t.versus != witness)) continue;
+        if (t.verdict != Verdict::undecided || !t.problem.empty() || (t.witness != witness && t.versus != witness))
+            continue;
         const double share = t.witness == witness ? t.noise_of_witness : 1 - t.noise_of_witness;
         if (share < least_share_of_noise) continue;
         if (!t.replicates_to_decide || *t.replicates_to_decide > most_replicates_of_pictures)

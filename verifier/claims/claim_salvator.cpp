@@ -17,7 +17,7 @@ Claim claim_salvator() {
                                 return 0.5 * camera.width_px * (1 + figure::relief_low.x);
                             }};
         std::vector<Experiment> all{context.quick ? whole_picture(context, "salvator", 88, 130, 5)
-                                                  : whole_picture(context, "salvator", 176, 259, 5)};
+                                                  : whole_picture(context, "salvator", 144, 212, 5)};
         const auto &parameters = all.front().record.parameters;
         if (parameters.at("robe.mesh").empty() && std::stod(parameters.at("robe.shift_mm")) == 0)
             all.push_back(border_experiment(context, "salvator", 176, 259, border));
@@ -40,7 +40,7 @@ Claim claim_salvator() {
             "renderer: the orb's shadow is the same share of the light wherever it falls."};
     };
     claim.scope = [](const ClaimContext &context, const ScopeSettings &settings) {
-        return picture_scope(whole_picture(context, "salvator", 176, 259, 1), settings);
+        return picture_scope(whole_picture(context, "salvator", 144, 212, 1), settings);
     };
     claim.mutant = Fault::camera_one_pixel;
     return claim;

@@ -34,7 +34,7 @@ Claim claim_setup() {
         "The set-up seen from aside, relief, hand, orb and camera, is the same picture in every renderer.";
     claim.experiments = [](const ClaimContext &context) {
         std::vector<Experiment> all{context.quick ? whole_picture(context, "setup", 128, 64, 8)
-                                                  : whole_picture(context, "setup", 256, 128, 8)};
+                                                  : whole_picture(context, "setup", 192, 96, 8)};
         const Quad ground = card_of(all.front().scene);
         all.push_back(
             border_experiment(context, "setup", 256, 128,
@@ -55,7 +55,7 @@ Claim claim_setup() {
         return "";
     };
     claim.scope = [](const ClaimContext &context, const ScopeSettings &settings) {
-        return picture_scope(whole_picture(context, "setup", 256, 128, 1), settings);
+        return picture_scope(whole_picture(context, "setup", 192, 96, 1), settings);
     };
     claim.mutant = Fault::camera_one_pixel;
     return claim;

@@ -207,7 +207,7 @@ Experiment view_experiment(const ClaimContext &context, const std::string &kind)
 }
 
 Experiment picture_experiment(const ClaimContext &context, const std::string &kind) {
-    const std::string size = context.quick ? "48" : "96";
+    const std::string size = context.quick ? "48" : "64";
     Experiment e = context.experiment(
         kind + "-picture", fmt::format("the robe behind the {} orb, small, to be compared tile by tile", kind), kind,
         {assign("image.width_px", size), assign("image.height_px", size)}, {assign("card.surface", "textured")});

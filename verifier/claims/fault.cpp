@@ -53,6 +53,23 @@ void change_images(Scene &scene, OnTexture change) {
                     *texture = std::make_shared<const Texture>(change(**texture));
 }
 
+/// Radiance only: what a surface reflects is no light of its own. A texel stays below 1, all that it can say.
+void change_emitters(Scene &scene, double factor) {
+    for (Object &object : scene.objects) {
+        Surface *surface = surface_of(object.shape);
+        Emissive *emitter = surface ? std::get_if<Emissive>(surface) : nullptr;
+        if (!emitter) continue;
+        std::visit(overloaded{
+                       [factor](Rgb &radiance) { radiance *= factor; },
+                       [factor](std::shared_ptr<const Texture> &texture) {
+                           texture = std::make_shared<const Texture>(
+                               with_samples(*texture, [factor](double x) { return x * factor; }));
+                       },
+                   },
+                   emitter->radiance);
+    }
+}
+
 template <class Change>
 void change_shells(Scene &scene, Change change) {
     for (Object &object : scene.objects)
@@ -92,7 +109,7 @@ const std::vector<FaultEntry> &faults() {
         {orb_one_millimetre, "orb+1mm", "the orb 1 mm to the right", "orb", "mm", real, 1},
         {tint_forgotten, "tint-forgotten", "the inner surface of a hollow orb takes no light", "tint", "", real, 1, 0,
          0, 1},
-        {radiance_slip, "radiance+1%", "emitters and environment 1 % too bright", "radiance", "", real, 0.01},
+        {radiance_slip, "radiance+1%", "emitters, lights and environment 1 % too bright", "radiance", "", real, 0.01},
     };
     return all;
 }
@@ -169,8 +186,8 @@ Scene with_fault(Scene scene, const InjectedFault &injected) {
         move_orbs(scene, {size, 0, 0});
         break;
     case Fault::radiance_slip:
-        change_images(scene,
-                      [size](const Texture &t) { return with_samples(t, [&](double x) { return x * (1 + size); }); });
+        change_emitters(scene, 1 + size);
+        for (Directional &light : scene.lights) light.irradiance *= 1 + size;
         if (scene.environment) scene.environment->radiance *= 1 + size;
         break;
     case Fault::inner_normal_flipped:

@@ -26,7 +26,7 @@ enum class Fault {
     texture_mirrored,      ///< every image is mirrored, left for right
     orb_one_millimetre,    ///< every orb stands 1 mm to the right
     tint_forgotten,        ///< the inner surface of a shell takes no light
-    radiance_slip,         ///< every emitter and the environment 1 % too bright
+    radiance_slip,         ///< every emitter and light, and the environment, 1 % too bright
 };
 
 struct FaultEntry {

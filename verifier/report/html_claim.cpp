@@ -171,7 +171,9 @@ void add_tiles(Out &out, const RunResult &result, const ClaimResult &claim, cons
             threefold::to_string(t.verdict), who, cell("worst tile", "number", share_of_mean(t, t.worst_difference)),
             cell("where", "place", where), cell("tolerance", "number", "±" + share_of_mean(t, t.tolerance)),
             cell("tiles", "tiles", tile_counts(t)), cell("verdict", "verdict", badge(t.verdict)));
-        add_budget(out, t.tolerance, t.budget, " in radiance", what_would_decide(t.verdict, t.replicates_to_decide), 6);
+        const std::string advice = t.problem.empty() ? what_would_decide(t.verdict, t.replicates_to_decide)
+                                                     : plain("not judged: " + t.problem);
+        add_budget(out, t.tolerance, t.budget, " in radiance", advice, 6);
         out += "</tbody>\n";
     }
     out += "</table></div>\n";

@@ -136,6 +136,7 @@ Json from_tiles(const TileComparison &t) {
         {"open", t.open},
         {"needed_share", real(t.needed_share)},
         {"allowed", t.allowed},
+        {"problem", text(t.problem)},
         {"replicates", t.replicates},
         {"level", real(t.level)},
         {"verdict", to_string(t.verdict)},

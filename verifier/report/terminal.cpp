@@ -46,8 +46,14 @@ std::string renderer_line(const RunResult &result, const ClaimResult &claim, con
     const auto add = [&](const std::string &who, std::optional<Verdict> verdict) {
         if (verdict) parts.push_back(fmt::format("{} {}", one_line(who), paint.verdict(*verdict, to_string(*verdict))));
     };
-    for (const WitnessRecord &witness : result.witnesses)
-        add(title_of(result, witness.name), against_closed_form(claim, witness.name));
+    const bool has_closed_form = std::ranges::any_of(claim.rows, [](const Row &row) { return row.versus.empty(); });
+    for (const WitnessRecord &witness : result.witnesses) {
+        const std::optional<Verdict> verdict = against_closed_form(claim, witness.name);
+        add(title_of(result, witness.name), verdict);
+        if (!verdict && has_closed_form && witness.present)
+            parts.push_back(fmt::format("{} {}", one_line(title_of(result, witness.name)),
+                                        paint.verdict(Verdict::undecided, "gave no picture")));
+    }
     add("between renderers", between_renderers(claim));
     std::string line;
     for (const std::string &part : parts) line += (line.empty() ? "" : " · ") + part;

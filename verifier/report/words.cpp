@@ -148,6 +148,7 @@ std::string sentence(const TileComparison &t) {
     if (t.failing) text += fmt::format(", {} {}", t.failing, t.failing == 1 ? "fails" : "fail");
     if (t.open) text += fmt::format(", {} undecided", t.open);
     if (t.allowed) text += fmt::format(" ({} may differ)", t.allowed);
+    if (!t.problem.empty()) text += "; not judged: " + t.problem;
     return text;
 }
 

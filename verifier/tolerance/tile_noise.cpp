@@ -97,14 +97,14 @@ int samples_for_tiles(const Witness &witness, const RenderJob &job, const TilesW
     const std::vector<double> few = tile_noise(pictures[0], pictures[1], wanted.tile_px);
     const int allowed = tiles_allowed(static_cast<int>(few.size()), wanted.needed_share);
     const double level = tile_level(first_look, allowed);
-    constexpr double chance = 0.95;
+    constexpr double chance = 0.9;
     const auto replicates = static_cast<int>(job.replicates.size());
     int samples = wanted.least_samples;
     while (samples < wanted.most_samples) {
         // Less noise is as good as more tolerance.
         const double finer = std::sqrt(static_cast<double>(samples) / pilot.samples_per_pixel);
         const double open = expected_open(few, replicates, wanted.tolerance * finer, level);
-        if (open == 0 || boost::math::cdf(boost::math::poisson(open), allowed / 2) >= chance) break;
+        if (open == 0 || boost::math::cdf(boost::math::poisson(open), allowed - allowed / 2) >= chance) break;
         samples = std::min(wanted.most_samples, samples + std::max(1, samples / 20));
     }
     return samples;

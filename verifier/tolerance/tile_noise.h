@@ -27,7 +27,7 @@ std::vector<double> tile_noise(const Image &a, const Image &b, int tile_px);
 /// Schuirmann's test at `level`, by Student's t; `deviations` are those of single pictures.
 double expected_open(std::span<const double> deviations, int replicates, double tolerance, double level);
 
-/// RenderJob's samples with which the comparison holds with a chance of 0.95, within the bounds wanted. Half of the
+/// RenderJob's samples with which the comparison holds with a chance of 0.9, within the bounds wanted. Half of the
 /// tiles that need not hold are kept for true differences, and for what a pilot does not see. Variance counts as
 /// falling with the samples' number, which low-discrepancy samples better.
 int samples_for_tiles(const Witness &witness, const RenderJob &job, const TilesWanted &wanted,

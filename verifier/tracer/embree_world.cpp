@@ -7,15 +7,19 @@
 #include <embree3/rtcore.h>
 #endif
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <mutex>
 #include <string>
 #include <utility>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include "scenes/error.h"
+#include "verifier/tracer/exact_block.h"
 
 namespace threefold::tracer {
 
@@ -39,8 +43,23 @@ using Context = RTCRayQueryContext;
 using Context = RTCIntersectContext;
 #endif
 
+/// A shadow ray's start and direction, in double precision, by lane.
+class ExactRays {
+public:
+    explicit ExactRays(const Ray &ray) : ray_(&ray) {}
+    explicit ExactRays(const RayPacket &rays) : rays_(&rays) {}
+    Vec3 origin_mm(unsigned lane) const { return ray_ ? ray_->origin_mm : rays_->origin.at(static_cast<int>(lane)); }
+    Vec3 direction(unsigned lane) const { return ray_ ? ray_->direction : rays_->direction.at(static_cast<int>(lane)); }
+
+private:
+    const Ray *ray_ = nullptr;
+    const RayPacket *rays_ = nullptr;
+};
+
 struct Query : Context {
     const Left *left = nullptr; ///< by lane
+    const ExactRays *rays = nullptr;
+    const ExactShapes *shapes = nullptr;
 
     Query() {
 #if RTC_VERSION_MAJOR >= 4
@@ -51,15 +70,30 @@ struct Query : Context {
     }
 };
 
-/// Rays start on their surface at distance 0: it does not stand in their way.
+/// How far the start of a ray lies from the plane that it meets, by Embree's numbers.
+float height_of(const RTCFilterFunctionNArguments *args, unsigned i) {
+    const float nx = RTCHitN_Ng_x(args->hit, args->N, i), ny = RTCHitN_Ng_y(args->hit, args->N, i),
+                nz = RTCHitN_Ng_z(args->hit, args->N, i);
+    const float slope = nx * RTCRayN_dir_x(args->ray, args->N, i) + ny * RTCRayN_dir_y(args->ray, args->N, i) +
+                        nz * RTCRayN_dir_z(args->ray, args->N, i);
+    return RTCRayN_tfar(args->ray, args->N, i) * std::abs(slope) / std::sqrt(nx * nx + ny * ny + nz * nz);
+}
+
+/// Rays start on their surface at distance 0: it does not stand in their way. What begins so near to the start that
+/// single precision could not tell is looked at in double.
 void pass_over_left(const RTCFilterFunctionNArguments *args) {
-    const Left *left = static_cast<const Query *>(args->context)->left;
-    if (!left) return;
+    const Query &query = *static_cast<const Query *>(args->context);
+    if (!query.left) return;
+    const auto near_mm = static_cast<float>(16 * std::numeric_limits<float>::epsilon() * query.shapes->reach_mm());
     for (unsigned i = 0; i < args->N; ++i) {
         if (!args->valid[i]) continue;
-        const Left &own = left[RTCRayN_id(args->ray, args->N, i)];
-        if (RTCHitN_primID(args->hit, args->N, i) == own.triangle &&
-            RTCHitN_geomID(args->hit, args->N, i) == own.object)
+        const unsigned lane = RTCRayN_id(args->ray, args->N, i);
+        const Left &own = query.left[lane];
+        const unsigned object = RTCHitN_geomID(args->hit, args->N, i), triangle = RTCHitN_primID(args->hit, args->N, i);
+        const bool is_own = triangle == own.triangle && object == own.object;
+        if (is_own ||
+            (!(height_of(args, i) > near_mm) &&
+             !query.shapes->blocks(object, triangle, query.rays->origin_mm(lane), query.rays->direction(lane))))
             args->valid[i] = 0;
     }
 }
@@ -155,6 +189,7 @@ private:
 
 struct EmbreeWorld::State {
     Vec3 origin;
+    ExactShapes shapes;
     EmbreeErrors errors; // outlives the device, which writes to it
     std::unique_ptr<RTCDeviceTy, decltype(&rtcReleaseDevice)> device{nullptr, &rtcReleaseDevice};
     std::unique_ptr<RTCSceneTy, decltype(&rtcReleaseScene)> scene{nullptr, &rtcReleaseScene};
@@ -232,15 +267,21 @@ void EmbreeWorld::add(std::size_t object, const Quad &quad) {
     for (unsigned k = 0; k < 4; ++k) {
         put(vertices + 3 * k, c[k] - state_->origin);
         indices[k] = k;
+        state_->shapes.reach_to(glm::length(c[k] - state_->origin));
     }
+    state_->shapes.add(object, quad);
     state_->add(object, geometry);
 }
 
 void EmbreeWorld::add(std::size_t object, const Mesh &mesh) {
     const Geometry geometry = state_->new_geometry(RTC_GEOMETRY_TYPE_TRIANGLE);
     float *vertices = state_->new_vertices(geometry, mesh.vertices_mm.size());
-    for (std::size_t k = 0; k < mesh.vertices_mm.size(); ++k)
-        put(vertices + 3 * k, mesh.vertices_mm[k] - state_->origin);
+    for (std::size_t k = 0; k < mesh.vertices_mm.size(); ++k) {
+        const Vec3 vertex = mesh.vertices_mm[k] - state_->origin;
+        put(vertices + 3 * k, vertex);
+        state_->shapes.reach_to(glm::length(vertex));
+    }
+    state_->shapes.add(object, mesh);
     unsigned *indices = state_->new_indices(geometry, RTC_FORMAT_UINT3, 3, mesh.triangles.size());
     for (std::size_t k = 0; k < mesh.triangles.size(); ++k)
         for (int i = 0; i < 3; ++i) indices[3 * k + static_cast<std::size_t>(i)] = mesh.triangles[k][i];
@@ -269,8 +310,11 @@ Candidate EmbreeWorld::intersect(const Ray &ray) const {
 
 bool EmbreeWorld::blocks(const Ray &ray, Left left) const {
     RTCRay r = state_->ray_of(ray);
+    const ExactRays exact(ray);
     Query query;
     query.left = &left;
+    query.rays = &exact;
+    query.shapes = &state_->shapes;
 #if RTC_VERSION_MAJOR >= 4
     RTCOccludedArguments arguments = occluding(query);
     rtcOccluded1(state_->scene.get(), &r, &arguments);
@@ -306,8 +350,11 @@ std::uint32_t EmbreeWorld::blocks(const RayPacket &rays, std::uint32_t active, c
     RTCRay8 r;
     put(rays, state_->origin, r);
     const Valid valid(active);
+    const ExactRays exact(rays);
     Query query;
     query.left = left;
+    query.rays = &exact;
+    query.shapes = &state_->shapes;
 #if RTC_VERSION_MAJOR >= 4
     RTCOccludedArguments arguments = occluding(query);
     rtcOccluded8(valid.lane, state_->scene.get(), &r, &arguments);

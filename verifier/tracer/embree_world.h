@@ -9,7 +9,8 @@
 
 namespace threefold::tracer {
 
-/// The triangle (of a rectangle: 0) that a ray starts on: passed over by name, so that no epsilon is needed.
+/// The triangle (of a rectangle: 0) that a ray starts on: passed over by name. Its neighbours are met in double
+/// precision where the ray starts near their plane.
 struct Left {
     std::uint32_t object = 0, triangle = 0;
 };
@@ -29,7 +30,7 @@ public:
     EmbreeWorld(const EmbreeWorld &) = delete;
     EmbreeWorld &operator=(const EmbreeWorld &) = delete;
 
-    /// `object`: a number below 2^32 - 1, the name of what is met.
+    /// `object`: a number below 2^32 - 1, the name of what is met. The shape must outlive the world.
     void add(std::size_t object, const Quad &quad);
     void add(std::size_t object, const Mesh &mesh);
     /// After the last, before the first question.
