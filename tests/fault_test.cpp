@@ -38,7 +38,7 @@ Scene room() {
                      {"card", Quad{{0, 0, -250}, {300, 0, 0}, {0, 300, 0}, Emissive{ramp}}},
                      {"patch", Quad{{0, 200, -240}, {10, 0, 0}, {0, 10, 0}, Emissive{Rgb(0.5)}}},
                      {"floor", Quad{{0, -100, 0}, {10, 0, 0}, {0, 0, 10}, Diffuse{Rgb(0.4)}}}};
-    scene.environment = Environment{Rgb(0.25)};
+    scene.environment = Environment{Rgb(0.25), 12};
     scene.camera.width_px = scene.camera.height_px = 16;
     return scene;
 }

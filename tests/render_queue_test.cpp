@@ -185,12 +185,15 @@ TEST(LookAtAnExperiment, BeginsWithFewReplicatesUnlessAPairOrAShareOfTilesNeedsA
     partner.name = "partner";
     tiles.tile_budget = [](const Accuracy &, const Accuracy &) { return std::vector<BudgetItem>{{"all", 1, ""}}; };
     tiles.tiles_needed_share = 0.99;
-    const std::vector all{usual, one, pair, partner, tiles};
+    Experiment paired_tiles = tiles;
+    paired_tiles.tiles_needed_share = 1, paired_tiles.shift_replicates = true;
+    const std::vector all{usual, one, pair, partner, tiles, paired_tiles};
     EXPECT_EQ(first_replicates(tracer, usual, all), 4);
     EXPECT_EQ(first_replicates(tracer, one, all), 1);
     EXPECT_EQ(first_replicates(tracer, pair, all), 8);
     EXPECT_EQ(first_replicates(tracer, partner, all), 8);
     EXPECT_EQ(first_replicates(tracer, tiles, all), 8);
+    EXPECT_EQ(first_replicates(tracer, paired_tiles, all), 8) << "as many as the renderer beside it";
 }
 
 TEST(LookAtAnExperiment, TakesTheReplicatesThatALongerOneWouldHave) {

@@ -10,8 +10,6 @@ namespace threefold {
 namespace {
 
 constexpr int fewest_replicates = 4; ///< that tell their own spread well enough
-/// Of a tracer's picture to be compared by tiles: they cost next to nothing, and its own noise then hardly counts.
-constexpr int tracer_replicates = 16;
 
 /// Through given points of the pixels only what is drawn at random has noise.
 bool is_noisy(const Witness &w, const Experiment &e) {
@@ -39,9 +37,8 @@ double Look::work() const {
 
 int first_replicates(const Witness &w, const Experiment &e, const std::vector<Experiment> &all) {
     const bool is_paired = !e.partner.empty() || std::ranges::count(all, e.name, &Experiment::partner) > 0;
-    const bool decides_noise = e.tile_budget && w.adapter && w.adapter->sample_factor > 1;
+    const bool decides_noise = e.tile_budget && (e.shift_replicates || (w.adapter && w.adapter->sample_factor > 1));
     if (w.pictures || is_paired || compares_a_share_of_tiles(e) || decides_noise) return e.replicates;
-    if (w.is_tracer() && e.tile_budget && !e.shift_replicates) return std::max(e.replicates, tracer_replicates);
     return std::min(e.replicates, fewest_replicates);
 }
 

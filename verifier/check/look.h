@@ -26,8 +26,8 @@ struct Look {
 
 /// How many replicates a first look takes. Most numbers lie so far from the edge of their tolerance that a few
 /// replicates decide them; the rest get a second look. A pair of pictures gets none, and where noise decides whether
-/// tiles agree, few replicates would take more samples in all: these begin with the experiment's own number. `all`: the
-/// experiments of its claim.
+/// tiles agree, few replicates would take more samples in all: these begin with the experiment's own number, and so do
+/// pictures whose replicates are compared in pairs. `all`: the experiments of its claim.
 int first_replicates(const Witness &w, const Experiment &e, const std::vector<Experiment> &all);
 
 /// What noise the first look's mean may have, under a tolerance that the user named; empty where that has no say.

@@ -207,13 +207,16 @@ Experiment view_experiment(const ClaimContext &context, const std::string &kind)
 }
 
 Experiment picture_experiment(const ClaimContext &context, const std::string &kind) {
-    const std::string size = context.quick ? "48" : "64";
+    const std::string size = context.quick ? "48" : "96";
     Experiment e = context.experiment(
         kind + "-picture", fmt::format("the robe behind the {} orb, small, to be compared tile by tile", kind), kind,
         {assign("image.width_px", size), assign("image.height_px", size)}, {assign("card.surface", "textured")});
-    e.sampling = Sampling::box;
-    e.samples_per_pixel = kind == "solid" ? 72 : 32; // a solid orb splits a ray into few branches: they are cheap
-    e.replicates = kind == "solid" ? 4 : 8;          // and one branch at random has little noise
+    // One ray a pixel, through another point of it in each replicate and through the same one in all renderers: what
+    // the points do to a picture is then no noise, and few rays do.
+    e.sampling = Sampling::pixel_centres;
+    e.shift_replicates = true;
+    e.samples_per_pixel = kind == "solid" ? 64 : 96; // where a renderer follows one branch at random
+    e.replicates = 8;
     const Scene scene = e.scene;
     const OrbInScene orb = orb_of(scene);
     const double mean = predicted_mean_radiance(scene), brightest = 0.92;
