@@ -215,7 +215,7 @@ Experiment picture_experiment(const ClaimContext &context, const std::string &ki
     // the points do to a picture is then no noise, and few rays do.
     e.sampling = Sampling::pixel_centres;
     e.shift_replicates = true;
-    e.samples_per_pixel = kind == "solid" ? 64 : 96; // where a renderer follows one branch at random
+    e.samples_per_pixel = kind == "solid" ? 64 : context.quick ? 96 : 160; // where one branch is followed at random
     e.replicates = 8;
     const Scene scene = e.scene;
     const OrbInScene orb = orb_of(scene);
