@@ -57,6 +57,7 @@ struct Accuracy {
     double cut_weight = 0;         ///< branches below this weight are dropped; 0: none is dropped
     bool cuts_whole_trees = false; ///< cut_weight bounds all that is dropped of a ray's tree, not each branch
     double lost_paths = 0;         ///< greatest share of paths through glass that a renderer loses altogether
+    double paths_per_pixel = 1;    ///< of so many independent paths a lost one is a share of its pixel's radiance
     double trapped_light = 0;      ///< share of the picture's light that is dropped because paths may not be longer
     bool random_branches = false;  ///< follows one branch where light splits, or one light, at random: much more noise
 };

@@ -19,6 +19,7 @@
 #include "verifier/report/html.h"
 #include "verifier/report/json.h"
 #include "verifier/report/junit.h"
+#include "verifier/report/numbers.h"
 #include "verifier/report/terminal.h"
 
 namespace threefold {
@@ -132,6 +133,9 @@ Exit export_jobs(const CheckRequest &request, const std::filesystem::path &folde
     say(fmt::format("wrote {} scenes to {} ({} left out); sh {} renders them; then check --image mitsuba={}",
                     jobs.size(), folder.string(), refused, shell_quoted((folder / "render.sh").string()),
                     shell_quoted(folder.string())));
+    const double samples = samples_to_render(jobs);
+    say(fmt::format("to render: {:.2g} samples, about {} of CPU time with Mitsuba 3.8 (scalar_rgb)", samples,
+                    report::duration(samples * mitsuba_seconds_per_sample)));
     return refused == 0 ? Exit::holds : Exit::undecided;
 }
 
@@ -158,6 +162,7 @@ Exit command_check(const Shop &shop, const CheckCommand &command) {
     for (const std::string &text : command.assignments) request.assignments.push_back(parse_assignment(text));
     request.quick = command.quick;
     request.seed = command.seed;
+    request.least_replicates = command.least_replicates;
     request.threads = shop.threads;
     request.tracer = tracer_settings(command.precision, "tree");
     request.tolerance = command.tolerance;

@@ -94,6 +94,7 @@ struct CheckCommand {
     std::vector<std::string> injections; ///< RENDERER:FAULT
     std::vector<std::string> images;     ///< RENDERER=FOLDER: pictures made elsewhere
     std::string export_to;               ///< RENDERER=FOLDER: write its scenes, and judge nothing
+    int least_replicates = 0;
     std::uint64_t seed = 1;
     double time_limit_s = 7200; // whole pictures of a million pixels take Cycles an hour on two busy cores
     std::string precision = "double";

@@ -29,6 +29,12 @@ void add_check_options(CLI::App &command, CheckCommand &request) {
                                    "(see: threefold list)"),
                 "RENDERER:FAULT");
     add_seed_option(command, request.seed);
+    command
+        .add_option(
+            "--replicates", request.least_replicates,
+            "At least so many replicates of each experiment, with --export and --image: what \"would decide\" a "
+            "number whose pictures are made elsewhere")
+        ->check(CLI::Range(2, 1000));
     add_time_limit_option(command, request.time_limit_s, "Seconds until a renderer is given up on one experiment");
     command
         .add_option(

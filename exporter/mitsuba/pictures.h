@@ -27,6 +27,11 @@ struct MitsubaJob {
 /// Pure. Throws Error(bad_data) for what Mitsuba cannot say without another picture coming out.
 MitsubaJob to_mitsuba_job(const RenderJob &job, std::string_view label);
 
+/// What the pictures cost: samples in all of them.
+double samples_to_render(const std::vector<MitsubaJob> &jobs);
+/// Mitsuba 3.8, scalar_rgb, through glass: a rough figure of one core.
+inline constexpr double mitsuba_seconds_per_sample = 5e-7;
+
 /// A shell script beside the scenes: renders what is not there yet.
 std::string render_script(const std::vector<MitsubaJob> &jobs);
 

@@ -25,6 +25,7 @@ struct CheckRequest {
     std::vector<Preset> presets{Preset::text}; ///< every claim is judged under each
     std::vector<Assignment> assignments;
     bool quick = false;
+    int least_replicates = 0; ///< of every experiment that has more than one, where its claim has fewer
     std::uint64_t seed = 1;
     std::map<std::string, std::uint64_t> seeds; ///< by witness name, in place of `seed`
     int threads = 0;                            ///< cores to use at once by all renderers together; 0: all

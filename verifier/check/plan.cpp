@@ -52,9 +52,10 @@ std::string with_values(const CheckRequest &request) {
     return text;
 }
 
-std::vector<Experiment> experiments_of(const Claim &claim, const ClaimContext &context) {
+std::vector<Experiment> experiments_of(const Claim &claim, const ClaimContext &context, int least_replicates) {
     std::vector<Experiment> all = claim.experiments(context);
     for (Experiment &e : all) {
+        if (e.replicates > 1) e.replicates = std::max(e.replicates, least_replicates);
         validate(e.scene);
         e.record.scene_hash = scene_hash(e.scene);
     }
@@ -107,7 +108,7 @@ std::vector<PlannedClaim> plan_of(const CheckRequest &request) {
                 const ClaimContext context{request.scenes, preset, request.assignments, request.quick};
                 plan.push_back({&claim, context, {}});
                 try {
-                    plan.back().experiments = experiments_of(claim, context);
+                    plan.back().experiments = experiments_of(claim, context, request.least_replicates);
                 } catch (const Error &error) {
                     if (error.code() != Exit::bad_data) throw;
                     plan.back().problem = fmt::format("{} ({}) has no scene{}: {}", claim.name, to_string(preset),

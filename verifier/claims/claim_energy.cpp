@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -52,12 +53,12 @@ std::vector<int> pixels_of_rings(const OrbInScene &orb, int rings, const Camera 
 
 /// The greatest share of a ring's paths that may be missing by rare losses, so many a path on average: in each ring no
 /// more are lost than its Poisson number exceeds once in a thousand pictures.
-double worst_loss(const std::vector<int> &pixels, double lost_paths) {
+double worst_loss(const std::vector<int> &pixels, const Accuracy &a) {
     double worst = 0;
     const double chance = 1e-3 / static_cast<double>(pixels.size());
-    for (const int n : pixels) {
-        if (n == 0) continue;
-        const double mean = n * lost_paths;
+    for (const int count : pixels) {
+        if (count == 0) continue;
+        const double n = count * a.paths_per_pixel, mean = n * a.lost_paths;
         double at_least = 1 - std::exp(-mean), term = std::exp(-mean); // P(more than m), P(m)
         int m = 0;
         while (at_least > chance && m < n) {
@@ -65,7 +66,7 @@ double worst_loss(const std::vector<int> &pixels, double lost_paths) {
             term *= mean / m;
             at_least -= term;
         }
-        worst = std::max(worst, static_cast<double>(m) / n);
+        worst = std::max(worst, m / n);
     }
     return worst;
 }
@@ -103,17 +104,23 @@ Experiment furnace(const ClaimContext &context, const std::string &kind) {
                                  "how it falls on the pixels is known to a fifth",
                                  a.cut_weight, deficit, where)});
             if (lost > 0)
-                items.push_back(
-                    {"lost paths", lost,
-                     fmt::format("up to {:.2g} of all paths are lost, each a whole pixel of {}", a.lost_paths, where)});
+                items.push_back({"lost paths", lost,
+                                 fmt::format("up to {:.2g} of all paths are lost, each {} of {}", a.lost_paths,
+                                             a.paths_per_pixel > 1 ? fmt::format("1/{:g} of a pixel", a.paths_per_pixel)
+                                                                   : "a whole pixel",
+                                             where)});
             return items;
         };
         const std::vector<BudgetItem> ring =
-            budget(missing.worst_ring, a.lost_paths > 0 ? worst_loss(pixels, a.lost_paths) : 0, "a ring");
+            budget(missing.worst_ring, a.lost_paths > 0 ? worst_loss(pixels, a) : 0, "a ring");
+        // Where a lost path is a small share of a pixel, a few more of them than on average are no more than that.
+        const double disc_loss = a.paths_per_pixel > 1 && a.lost_paths > 0
+                                     ? worst_loss({std::accumulate(pixels.begin(), pixels.end(), 0)}, a)
+                                     : a.lost_paths;
         return std::vector<Expected>{
             {"darkest ring", "", Relation::equal, 1 - missing.worst_ring, ring},
             {"brightest ring", "", Relation::equal, 1, ring},
-            {"the whole disc", "", Relation::equal, 1 - missing.disc, budget(missing.disc, a.lost_paths, "the disc")},
+            {"the whole disc", "", Relation::equal, 1 - missing.disc, budget(missing.disc, disc_loss, "the disc")},
         };
     };
     e.measure = [orb, rings](const Image &image, const Camera &camera) {
