@@ -30,8 +30,8 @@ constexpr int parts = 15;
 /// Paths choose one branch at random where light splits: samples for one of a renderer that follows both.
 constexpr int sample_factor = 16;
 
-/// In single precision a path that meets a sphere at a grazing angle may miss it and come out of the glass nowhere.
-/// Seen with Mitsuba 3.8, scalar_rgb: one in a million.
+/// Greatest share of paths that single precision loses in glass. With Mitsuba 3.8, scalar_rgb, it was about one in a
+/// million.
 constexpr double lost_in_glass = 5e-6;
 
 int part_of(double offset_px) {
@@ -75,7 +75,7 @@ Error missing_picture(const std::filesystem::path &path) {
             return {Exit::input_output,
                     fmt::format("the picture {} is missing: the folder has {}, which was exported with other options",
                                 path.string(), entry.path().filename().string()),
-                    "give check --image the options that --export had: --quick, --preset, --set, --seed, --tolerance"};
+                    "give check --image the options that --export had: --quick, --preset, --set, --seed, --replicates"};
     return {Exit::input_output, fmt::format("the picture {} is missing", path.string()),
             "check --export mitsuba=FOLDER writes the scenes and the script that renders them"};
 }

@@ -25,6 +25,8 @@ RenderAnswer answer_to(const RenderTask &task, int threads) {
     return answer;
 }
 
+bool sleeps_between_pictures(const Witness &w) { return w.adapter && w.adapter->sleeps_between_pictures; }
+
 /// What begins first.
 auto order_of(const RenderTask &task) { return std::tuple(task.group, !task.is_long, task.experiment); }
 
@@ -32,7 +34,7 @@ int all_cores() { return static_cast<int>(std::max(1u, std::thread::hardware_con
 
 } // namespace
 
-bool RenderTask::sleeps() const { return witness->adapter && witness->adapter->sleeps_between_pictures && !is_long; }
+bool RenderTask::sleeps() const { return sleeps_between_pictures(*witness) && !is_long; }
 
 RenderQueue::RenderQueue(int cores) : cores_(cores > 0 ? cores : all_cores()) {
     for (int i = 0; i < cores_; ++i) workers_.emplace_back([this] { work(false); });
@@ -81,8 +83,7 @@ std::optional<RenderAnswer> RenderQueue::next() {
 /// do long ones that render their pictures one after the other: a whole group waits for them.
 int RenderQueue::threads_for(const RenderTask &task) const {
     const bool last = waiting_.size() + running_ < static_cast<std::size_t>(2 * cores_);
-    const bool delays = task.is_long && task.witness->adapter && task.witness->adapter->sleeps_between_pictures;
-    return last || delays ? cores_ : 1;
+    return last || (task.is_long && sleeps_between_pictures(*task.witness)) ? cores_ : 1;
 }
 
 void RenderQueue::work(bool takes_sleepers_only) {
